@@ -9,6 +9,8 @@ from __future__ import annotations
 import time
 from collections.abc import Iterable, Mapping
 from dataclasses import InitVar, dataclass, field, replace
+from functools import partial
+from itertools import product
 
 from scenewright.motion.profile import Profile, chain
 from scenewright.plan.afterwards import goes_on
@@ -31,9 +33,9 @@ from scenewright.solve.plan import Plan
 
 # Newton steps of a first plan and of a tick, and how many more a tick has for each second that a trigger has moved by.
 _FIRST_STEPS, _TICK_STEPS, _STEPS_A_SECOND, _MOST_STEPS_MORE = 40, 4, 12, 16
-# First plans are solved for from this speed (a share of the natural one) and, where both decide, trigger (s). Measured:
-# from two more speeds and another trigger too, of 120 first takes as many are met.
-_PACE, _JOINT_S = 0.8, 3.5
+# First plans are solved for from this speed (a share of the natural one); where both decide when a trigger comes, from
+# these and from these triggers (s): Newton finds the nearest plan, not the best.
+_PACE, _JOINT_PACES, _JOINT_S = 0.8, (0.8, 0.45, 0.25), (3.5, 6.0)
 # What a step has to gain in a tick, from which the next one goes on, and in any plan for each further hero. A tight
 # tolerance that is missed costs hundreds. Measured: with 0.01 ticks take half as long, and 133 runs are met as often.
 _ENOUGH_TICK, _ENOUGH_EACH = 0.01, 0.3
@@ -142,12 +144,14 @@ class Planner:
         self.ego_knots_s = {self.scene.program.ego.sketch.knots[0]: 0.0}
         prediction = self._ego.predictor.predict([ego])
         joint = any(h.id in self.structure.triggers and not self._times.ego_decides(h) for h in self._heroes)
-        joint_s, meetings = _JOINT_S if joint else 0.0, meetings_of(self.scene)
-        guesses, told = even_motions(self._asked, self._times, prediction, joint_s, _PACE)
+        even, meetings = partial(even_motions, self._asked, self._times, prediction), meetings_of(self.scene)
+        guesses, told = even(0.0, _PACE)
         placed = bool(meetings) and told and not meet_later(self.scene.program, self.structure)
         if placed:
             self._meetings = in_order(meetings, self.scene, self.structure, guesses)
-        best = self._planned_first(prediction, joint_s, guesses)
+        ways = product(_JOINT_S, _JOINT_PACES) if joint else [(0.0, _PACE)]
+        tries = [self._planned_first(prediction, joint_s, even(joint_s, pace)[0]) for joint_s, pace in ways]
+        best = min(tries, key=lambda found: found.solution.cost)
         self._keep(best)
         if self._ego.take_sides(self.plan.profiles, self._asked.adapts_until):
             best = self._planned_first(best.plan.profiles[EGO], 0.0, best.plan.profiles)
