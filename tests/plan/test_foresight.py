@@ -46,15 +46,19 @@ def test_one_that_crosses_its_way_is_not_followed() -> None:
     assert foresight(YIELDS_DISTANCE, Driver(13.9)).leaders == {}
 
 
-def test_how_a_hero_is_answered_is_what_is_foreseen_of_it_where_it_is_ever_faster() -> None:
+@pytest.mark.parametrize("first", [True, False])
+def test_how_a_hero_is_answered_is_what_is_foreseen_of_it_where_it_is_otherwise(first: bool) -> None:
     follower, motions = foresight(BRAKES_GAP, Driver(13.9)), leading(18.0, 10.0)
     prediction = follower.foreseen(motions)
-    answer = follower.lanes(motions, 0.0, prediction).answers[1]
-    moved = Profile(chain(0.0, 168.0, 10.0, [(8.0, 0.2 / 16.0, 0)]), motions[1].knot_times_s)
+    answer = follower.lanes(motions, 0.0, prediction, first=first).answers[1]
+    if first:
+        moved = Profile(chain(0.0, 168.1, 10.0, [(8.0, 0.0, 0)]), motions[1].knot_times_s)
+    else:
+        moved = Profile(chain(0.0, 168.0, 10.0, [(8.0, 0.2 / 16.0, 0)]), motions[1].knot_times_s)
     then, before = follower.foreseen({1: moved}).state(4.0), prediction.state(4.0)
-    found, expected = (answer.further, answer.faster), (10.0 * (then[0] - before[0]), 10.0 * (then[1] - before[1]))
-    assert found == pytest.approx(expected, abs=1e-6)
-    assert answer.further > 0.0, "an ego whose leader is further on comes further"
+    assert answer.per_metre == pytest.approx((10.0 * (then[0] - before[0]), 10.0 * (then[1] - before[1])), abs=1e-6)
+    assert answer.per_metre[0] > 0.0, "an ego whose leader is further on comes further"
+    assert (answer.per_mps is None) is not first
 
 
 @pytest.mark.parametrize("mps", [5.5, 6.3, 9.0])

@@ -13,14 +13,14 @@ from scenewright.motion.profile import Profile
 from scenewright.plan.clearance import Clearance
 from scenewright.plan.following import Leader, foresee_follower
 from scenewright.plan.prediction import ConstantSpeed, EgoSample, Predictor
-from scenewright.plan.situation import Answer, EverFaster, Lanes, SeenAndForeseen
+from scenewright.plan.situation import Answer, Lanes, Otherwise, SeenAndForeseen
 from scenewright.program.structure import Structure
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import LinearCondition
 
 _SHORTEST_S = 0.1  # in less time nothing can be answered
-_LITTLE_M = 0.1  # by so much further on heroes are foreseen to ask for an answer
+_LITTLE = 0.1  # by so many metres, or metres a second, heroes are foreseen otherwise to ask for an answer
 
 Motions = Mapping[int, Profile]
 
@@ -93,17 +93,30 @@ class Foresight:
         """Return its states, past and foreseen."""
         return SeenAndForeseen(self.samples, prediction)
 
-    def lanes(self, motions: Motions, time_s: float, prediction: Profile) -> Lanes:
+    def lanes(self, motions: Motions, time_s: float, prediction: Profile, *, first: bool) -> Lanes:
         """Return who keeps on which side of it on its lane, and what it makes of heroes that do not move just so."""
         apart = {hero: (1.0 if lane.ahead else -1.0, lane.offset_m) for hero, lane in self._on_lane.items()}
-        answers: dict[int, Answer] = {}
-        for hero, lane in self.leaders.items():
+        found: dict[int, Answer] = {}
+        for hero, clearance in self.leaders.items():
             trigger_s = motions[hero].knot_times_s.get(self.structure.trigger_knot(hero) or "", time_s)
             if trigger_s > time_s:
-                lasts_s = max(trigger_s - time_s, _SHORTEST_S)
-                leader = Leader(EverFaster(motions[hero], time_s, 2.0 * _LITTLE_M / lasts_s**2), lane.offset_m)
-                alone, then = self.predictor.predict(self.samples), prediction.state(trigger_s)
-                other = foresee_follower(alone, self.samples, leader, self.cruise_mps).state(trigger_s)
-                further, faster = ((b - a) / _LITTLE_M for a, b in zip(then[:2], other[:2], strict=True))
-                answers[hero] = Answer(motions[hero], trigger_s, further, faster)
-        return Lanes(apart, answers, frozenset(self._distances))
+                found[hero] = self._answer(motions[hero], clearance, (time_s, trigger_s), prediction, first=first)
+        return Lanes(apart, found, frozenset(self._distances))
+
+    def _answer(
+        self, motion: Profile, clearance: Clearance, span_s: tuple[float, float], prediction: Profile, *, first: bool
+    ) -> Answer:
+        """Return how it answers a hero by the end of a span: from what it makes of one that moves otherwise."""
+        now_s, then_s = span_s
+        alone, (place_m, speed_mps, _) = self.predictor.predict(self.samples), prediction.state(then_s)
+
+        def answered(otherwise: Otherwise) -> tuple[float, float]:
+            leader = Leader(otherwise, clearance.offset_m)
+            then = foresee_follower(alone, self.samples, leader, self.cruise_mps).state(then_s)
+            return (then[0] - place_m) / _LITTLE, (then[1] - speed_mps) / _LITTLE
+
+        if first:
+            further, faster = Otherwise(motion, 0.0, further_m=_LITTLE), Otherwise(motion, 0.0, faster_mps=_LITTLE)
+            return Answer(motion, then_s, answered(further), answered(faster))
+        lasts_s = max(then_s - now_s, _SHORTEST_S)
+        return Answer(motion, then_s, answered(Otherwise(motion, now_s, ever_faster_mpss=_LITTLE * 2.0 / lasts_s**2)))

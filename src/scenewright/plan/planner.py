@@ -33,9 +33,9 @@ from scenewright.solve.plan import Plan
 
 # Newton steps of a first plan and of a tick, and how many more a tick has for each second that a trigger has moved by.
 _FIRST_STEPS, _TICK_STEPS, _STEPS_A_SECOND, _MOST_STEPS_MORE = 40, 4, 12, 16
-# First plans are solved for from this speed (a share of the natural one); where both decide when a trigger comes, from
-# these and from these triggers (s): Newton finds the nearest plan, not the best.
-_PACE, _JOINT_PACES, _JOINT_S = 0.8, (0.8, 0.45, 0.25), (3.5, 6.0)
+# First plans are solved for from these speeds (shares of the natural one) and, where both decide, triggers (s): Newton
+# finds the nearest plan, not the best.
+_PACES, _JOINT_S = (0.8, 0.45, 0.25), (3.5, 6.0)
 # What a step has to gain in a tick, from which the next one goes on, and in any plan for each further hero. A tight
 # tolerance that is missed costs hundreds. Measured: with 0.01 ticks take half as long, and 133 runs are met as often.
 _ENOUGH_TICK, _ENOUGH_EACH = 0.01, 0.3
@@ -145,11 +145,11 @@ class Planner:
         prediction = self._ego.predictor.predict([ego])
         joint = any(h.id in self.structure.triggers and not self._times.ego_decides(h) for h in self._heroes)
         even, meetings = partial(even_motions, self._asked, self._times, prediction), meetings_of(self.scene)
-        guesses, told = even(0.0, _PACE)
+        guesses, told = even(0.0, _PACES[0])
         placed = bool(meetings) and told and not meet_later(self.scene.program, self.structure)
-        if placed:
+        if placed:  # one guess has shown to be enough where it tells who goes first
             self._meetings = in_order(meetings, self.scene, self.structure, guesses)
-        ways = product(_JOINT_S, _JOINT_PACES) if joint else [(0.0, _PACE)]
+        ways = product(_JOINT_S if joint else (0.0,), _PACES[: 1 if placed else None])
         tries = [self._planned_first(prediction, joint_s, even(joint_s, pace)[0]) for joint_s, pace in ways]
         best = min(tries, key=lambda found: found.solution.cost)
         self._keep(best)
@@ -262,7 +262,7 @@ class Planner:
             planned_s=planned,
             waits=frozenset(triggers),
             sure=self._ego.is_sure,
-            lanes=self._ego.lanes(guesses, 0.0, prediction),
+            lanes=self._ego.lanes(guesses, 0.0, prediction, first=True),
         )
 
     # -- one tick -----------------------------------------------------------------------------------------------------
@@ -358,7 +358,7 @@ class Planner:
             planned_s=planned,
             waits=frozenset(triggers),
             sure=self._ego.is_sure,
-            lanes=self._ego.lanes(self.plan.profiles, time_s, prediction),
+            lanes=self._ego.lanes(self.plan.profiles, time_s, prediction, first=False),
         )
         return situation, moved_s
 

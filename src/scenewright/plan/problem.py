@@ -434,11 +434,18 @@ class Problem:
         for hero, answer in self.now.lanes.answers.items():
             if time_s <= self.now.time_s or instant != self.asked.trigger(hero):
                 continue
-            place_m, _, d_place, _ = self._state(hero, instant, z, shots)
-            then_m, then_mps, _ = answer.then(time_s)
+            place_m, hero_mps, d_place, d_hero = self._state(hero, instant, z, shots)
+            then_m, then_mps, then_mpss = answer.then(time_s)
             further_m, d_further = place_m - then_m, d_place - then_mps * d_time
-            s_m, d_s = s_m + answer.further * further_m, d_s + answer.further * d_further
-            speed_mps, d_v = speed_mps + answer.faster * further_m, d_v + answer.faster * d_further
+            if answer.per_mps is not None:
+                faster_mps, since_s = hero_mps - then_mps, time_s - self.now.time_s
+                d_faster = d_hero - then_mpss * d_time
+                further_m -= faster_mps * since_s
+                d_further = d_further - since_s * d_faster - faster_mps * d_time
+                s_m, d_s = s_m + answer.per_mps[0] * faster_mps, d_s + answer.per_mps[0] * d_faster
+                speed_mps, d_v = speed_mps + answer.per_mps[1] * faster_mps, d_v + answer.per_mps[1] * d_faster
+            s_m, d_s = s_m + answer.per_metre[0] * further_m, d_s + answer.per_metre[0] * d_further
+            speed_mps, d_v = speed_mps + answer.per_metre[1] * further_m, d_v + answer.per_metre[1] * d_further
         return s_m, speed_mps, d_s, d_v
 
     def _rate(self, actor: int, instant: int, z: Array, shots: Mapping[int, Shot]) -> tuple[float, Array]:

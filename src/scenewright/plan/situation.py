@@ -32,15 +32,17 @@ class Answer:
     ----------
     motion, trigger_s
         Of the hero, with which the ego was foreseen; when its trigger was to come.
-    further, faster
-        By how much the ego is further on (m) and faster (m/s) for each metre by which the hero is further on, as it is
-        by being ever faster from now on.
+    per_metre
+        By how much the ego is further on (m) and faster (m/s) for each metre by which the hero is further on.
+    per_mps
+        Likewise for each metre a second by which the hero is faster all along, from the same place on; None where it
+        is further on only by being ever faster from now on, as `per_metre` then says.
     """
 
     motion: Profile
     trigger_s: float
-    further: float
-    faster: float
+    per_metre: tuple[float, float]
+    per_mps: tuple[float, float] | None = None
 
     def then(self, time_s: float) -> tuple[float, float, float]:
         """Return the hero's state with which the ego was foreseen, had its trigger not come."""
@@ -125,15 +127,18 @@ class SeenAndForeseen:
 
 
 @dataclass(frozen=True, slots=True)
-class EverFaster:
-    """A motion that is ever faster from a time on than another: by so much a second (m/s^2)."""
+class Otherwise:
+    """A motion that is otherwise from a time on: so much further on (m), faster (m/s), ever faster (m/s^2)."""
 
     motion: Profile
     from_s: float
-    by_mpss: float
+    further_m: float = 0.0
+    faster_mps: float = 0.0
+    ever_faster_mpss: float = 0.0
 
     def state(self, time_s: float) -> tuple[float, float, float]:
         """Return place (m), speed (m/s) and acceleration (m/s^2) at a time."""
         s_m, speed_mps, accel = self.motion.state(time_s)
-        since = max(0.0, time_s - self.from_s)
-        return s_m + 0.5 * self.by_mpss * since**2, speed_mps + self.by_mpss * since, accel + self.by_mpss
+        since, more = max(0.0, time_s - self.from_s), self.ever_faster_mpss
+        further_m = self.further_m + (self.faster_mps + 0.5 * more * since) * since
+        return s_m + further_m, speed_mps + self.faster_mps + more * since, accel + more

@@ -121,7 +121,7 @@ def _saved_from(world: World, start: EgoFirstState, attempt: Attempt) -> list[in
         ahead_m, closing_mps = there.s_m + offset_m - ego.s_m, max(0.0, ego.speed_mps - there.speed_mps)
         # Who is still on another road is further away than along the road that the two will share.
         same_road = math.hypot(there.x_m - ego.x_m, there.y_m - ego.y_m) < ahead_m + _SAME_ROAD_M
-        if same_road and 0.0 < ahead_m - VEHICLE_LENGTH_M < kept_m(ego.speed_mps, closing_mps):
+        if same_road and 0.0 < ahead_m < VEHICLE_LENGTH_M + kept_m(ego.speed_mps, closing_mps):
             near.append(hero)
     return near if near and _brakes_hard(begins, heroes, world.rates.step_s) else []
 
