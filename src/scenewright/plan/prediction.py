@@ -101,7 +101,10 @@ class Driver:
             accel = accel_mpss + change_mpsss * _CHANGES_FOR_S * turned
             if elapsed_s >= GOES_ON_S:
                 accel = pull_mpss * max(0.0, 1.0 - (speed_mps / self.cruise_mps) ** 4)
-            accel = _slowing(ahead, (s_m, speed_mps), accel, lasts_s)
+            ahead = [place for place in ahead if place[0] > s_m]
+            if elapsed_s >= GOES_ON_S and not (ahead or pull_mpss):
+                break  # it holds its speed
+            accel = _slowing(ahead, (s_m, speed_mps), accel, lasts_s) if ahead else accel
             if speed_mps + accel * lasts_s <= _STANDS_MPS:
                 moves += [(speed_mps / -accel, accel, 0)] if accel < 0.0 else []
                 moves += [(_STANDS_S, 0.0, 0), (_SETS_OFF_TO_MPS / _SETS_OFF_MPSS, _SETS_OFF_MPSS, 0)]
@@ -152,8 +155,11 @@ def _slowing(places: Sequence[tuple[float, float]], state: tuple[float, float], 
 
 def _needed_mpss(places: Sequence[tuple[float, float]], s_m: float, speed_mps: float) -> float:
     """Return the deceleration that leads to the speed of every place ahead."""
-    rises = ((place_m - s_m, speed_mps**2 - most_mps**2) for place_m, most_mps in places)
-    return max((rise / (2.0 * way_m) for way_m, rise in rises if way_m > _NO_WAY_M and rise > 0.0), default=0.0)
+    needed = 0.0
+    for place_m, most_mps in places:
+        if speed_mps > most_mps and place_m > s_m + _NO_WAY_M:
+            needed = max(needed, (speed_mps**2 - most_mps**2) / (2.0 * (place_m - s_m)))
+    return needed
 
 
 def predictor_called(name: str, route: Route, cruise_mps: float) -> Predictor:
