@@ -10,6 +10,8 @@ from scenewright.judge.tolerance import TIGHT
 from scenewright.orchestrate import Request, Stages, begin, orchestrate
 from scenewright.program.starts import HARD_MPSS
 from scenewright.program.types import EGO
+from scenewright.roads.bodies import VEHICLE_LENGTH_M
+from scenewright.roads.conflicts import shared_offset_m
 from scenewright.simulate import beginning
 from scenewright.simulate.beginning import first_plan, is_timed_by_ego
 from scenewright.simulate.ego_start import ego_starts
@@ -104,9 +106,14 @@ def test_nobody_starts_where_only_hard_braking_saves_it() -> None:
     )
     result = orchestrate(Request(text, ego="idm", takes=1))
     assert result.run is not None
-    ego = result.run.trace.actors["ego"]
-    assert ego.accel_mps2[ego.time_s < 1.0].min() > -3.0
+    ego, truck = (result.run.trace.actors[name] for name in ("ego", "truck"))
+    offset_m = shared_offset_m(result.scene.routes[EGO], result.scene.routes[1])
+    assert offset_m is not None
+    room_m = float(truck.s_m[0] + offset_m - ego.s_m[0]) - VEHICLE_LENGTH_M
+    closing_mps = max(0.0, float(ego.speed_mps[0] - truck.speed_mps[0]))
+    assert closing_mps**2 / (2.0 * (room_m - closing_mps)) < 3.0, "who reacts within a second can brake evenly"
     assert result.verdict is not None
+    assert result.verdict.condition("start").holds_at(TIGHT)
     assert result.status == "success" or result.verdict.cause is not None
 
 
