@@ -144,13 +144,17 @@ class Planner:
         self.ego_knots_s = {self.scene.program.ego.sketch.knots[0]: 0.0}
         prediction = self._ego.predictor.predict([ego])
         joint = any(h.id in self.structure.triggers and not self._times.ego_decides(h) for h in self._heroes)
-        even, meetings = partial(even_motions, self._asked, self._times, prediction), meetings_of(self.scene)
-        guesses, told = even(0.0, _PACES[0])
-        placed = bool(meetings) and told and not meet_later(self.scene.program, self.structure)
-        if placed:  # one guess has shown to be enough where it tells who goes first
-            self._meetings = in_order(meetings, self.scene, self.structure, guesses)
-        ways = product(_JOINT_S if joint else (0.0,), _PACES[: 1 if placed else None])
-        tries = [self._planned_first(prediction, joint_s, even(joint_s, pace)[0]) for joint_s, pace in ways]
+        even, tries = partial(even_motions, self._asked, self._times, prediction), list[_Found]()
+        meetings = meetings_of(self.scene)
+        placed = bool(meetings) and not meet_later(self.scene.program, self.structure) and even(0.0, 1.0)[1]
+        # Who comes slowly can still do either; where nothing tells when, a slow guess would just stay slow.
+        for joint_s, pace in product(_JOINT_S if joint else (0.0,), reversed(_PACES) if placed else _PACES):
+            guesses, _ = even(joint_s, pace)
+            if placed:
+                self._meetings = in_order(meetings, self.scene, self.structure, guesses)
+            tries.append(self._planned_first(prediction, joint_s, guesses))
+            if meetings and tries[-1].solution.missed.by <= GOOD:
+                break
         best = min(tries, key=lambda found: found.solution.cost)
         self._keep(best)
         if self._ego.take_sides(self.plan.profiles, self._asked.adapts_until):
