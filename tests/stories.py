@@ -114,6 +114,21 @@ A1a(dec) == -3
 A1v(t2) == 0
 """,
 )
+# Its trigger tells no distance, so the ego is foreseen as if alone: it would drive into who stops ahead.
+STOPS_AHEAD = program(
+    "W",
+    "t0, dec, t1, stop, t2, acc, t3",
+    """
+gap(A0, A1, t0) == 15 m
+A0v(t0) == 14
+A1v(t0) == 14
+A1a(dec) == -6
+A1v(t1) == 0
+A1(t2) - A1(t1) == 3
+A1v(t3) == 5
+A0(t1) == A1(t2)
+""",
+)
 STORIES = {
     "yields, distance": YIELDS_DISTANCE,
     "yields, time": YIELDS_TIME,

@@ -13,7 +13,7 @@ from scenewright.judge.files import cause_told, write_verdict
 from scenewright.judge.tolerance import TIGHT
 from scenewright.judge.verdict import Cause, bounded
 from scenewright.orchestrate import Mode, Request, Result, Stages, orchestrate, set_up
-from stories import STORIES, driven
+from stories import STOPS_AHEAD, STORIES, driven
 
 # Story, ego, further settings, and what it is.
 CASES = [
@@ -164,26 +164,7 @@ A1v(t2) == 6
 
 def test_where_all_that_was_asked_was_done_what_else_was_missed_is_told() -> None:
     """The program puts the lead so near that an ego which holds its speed drives into it before the trigger."""
-    stops_ahead = """
-Actor 0 (ego):
-- W
-- [t0, go, t1, go, t2]
-
-Actor 1 (lead):
-- W
-- [t0, dec, t1, stop, t2, acc, t3]
-
-Constraints:
-gap(A0, A1, t0) == 15 m
-A0v(t0) == 14
-A1v(t0) == 14
-A1a(dec) == -6
-A1v(t1) == 0
-A1(t2) - A1(t1) == 3
-A1v(t3) == 5
-A0(t1) == A1(t2)
-"""
-    found = cause(orchestrate(Request(stops_ahead, ego="constant", takes=1)))
+    found = cause(orchestrate(Request(STOPS_AHEAD, ego="constant", takes=1)))
     assert "the ego collides with nobody before the trigger" in found.text
     assert "no plan was found" not in found.text
 

@@ -10,21 +10,17 @@ from scenewright.motion.profile import Profile, chain
 from scenewright.plan.guesses import even_motions, meet_later
 from scenewright.program.structure import read_structure
 from scenewright.program.types import EGO
+from stories import program
 
-JOINT = """
-Actor 0 (ego):
-- W
-- [t0, go, t1, go, t2]
-
-Actor 1 (lead):
-- W
-- [t0, go, t1, dec, t2]
-
-Constraints:
+JOINT = program(
+    "W",
+    "t0, go, t1, dec, t2",
+    """
 A0(t1) == A1(t1)
 gap(A0, A1, t1) == 20
 A1v(t2) == 0
-"""
+""",
+)
 
 
 @pytest.mark.parametrize("program", ["platoon", "crossing", "chain", "mixed"])

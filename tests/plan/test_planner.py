@@ -21,75 +21,40 @@ from scenewright.solve.holding import not_held
 from scenewright.solve.limits import Limits
 from scenewright.solve.plan import Plan, PlanWorld
 from scenewright.study.benchmark import benchmark_rows, draw_row
-from stories import BRAKES_GAP, STOPS_AND_GOES, STORIES, YIELDS_DISTANCE
+from stories import BRAKES_GAP, STOPS_AHEAD, STOPS_AND_GOES, STORIES, YIELDS_DISTANCE, program
 
-STARTS_NEAR = """
-Actor 0 (ego):
-- W
-- [t0, go, t1, go, t2]
-
-Actor 1 (lead):
-- W
-- [t0, go, t1, dec, t2]
-
-Constraints:
+STARTS_NEAR = program(
+    "W",
+    "t0, go, t1, dec, t2",
+    """
 gap(A0, A1, t0) == 8 m
 A0v(t0) == 13
 A1v(t0) == 8
 A0(t1) == A1(t1)
 gap(A0, A1, t1) == 20 m
 A1v(t2) == 0
-"""
-STANDS_AHEAD = """
-Actor 0 (ego):
-- W
-- [t0, go, t1, go, t2]
-
-Actor 1 (lead):
-- W
-- [t0, stop, t1, acc, t2]
-
-Constraints:
+""",
+)
+STANDS_AHEAD = program(
+    "W",
+    "t0, stop, t1, acc, t2",
+    """
 A0(t1) == A1(t1)
 gap(A0, A1, t1) == 25 m
 A1v(t2) == 8
-"""
-# Its trigger tells no distance, so the ego is foreseen as if alone: it would drive into who stops ahead.
-STOPS_AHEAD = """
-Actor 0 (ego):
-- W
-- [t0, go, t1, go, t2]
-
-Actor 1 (lead):
-- W
-- [t0, dec, t1, stop, t2, acc, t3]
-
-Constraints:
-gap(A0, A1, t0) == 15 m
-A0v(t0) == 14
-A1v(t0) == 14
-A1a(dec) == -6
-A1v(t1) == 0
-A1(t2) - A1(t1) == 3
-A1v(t3) == 5
-A0(t1) == A1(t2)
-"""
-NEAR_ITS_END = """
-Actor 0 (ego):
-- W
-- [t0, go, t1, go, t2]
-
-Actor 1 (lead):
-- W
-- [t0, go, t1, dec, t2]
-
-Constraints:
+""",
+)
+NEAR_ITS_END = program(
+    "W",
+    "t0, go, t1, dec, t2",
+    """
 A0(t1) == A1(t1)
 A0x(t1) == A0.route_end - 60
 gap(A0, A1, t1) == 30
 A1a(dec) == -1
 A1v(t2) == 0
-"""
+""",
+)
 STEP_S = 0.005
 ROWS = [row for row in benchmark_rows() if row.id % 6 == 0]
 

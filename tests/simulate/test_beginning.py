@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import pytest
 
@@ -14,7 +15,7 @@ from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.roads.conflicts import shared_offset_m
 from scenewright.simulate import beginning
 from scenewright.simulate.beginning import first_plan, is_timed_by_ego
-from scenewright.simulate.ego_start import ego_starts
+from scenewright.simulate.ego_start import EgoFirstState, ego_starts
 from scenewright.simulate.world import World
 from scenewright.solve.arrival import linear_conditions
 from stories import BRAKES_GAP, GOES_FIRST_TIME, STOPS_AND_GOES, YIELDS_DISTANCE, YIELDS_TIME, program
@@ -117,22 +118,17 @@ def test_nobody_starts_where_only_hard_braking_saves_it() -> None:
     assert result.status == "success" or result.verdict.cause is not None
 
 
-TAILS = """
-Actor 0 (ego):
-- W
-- [t0, go, t1, go, t2]
-
-Actor 1 (lead):
-- W
-- [t0, go, t1, dec, t2]
-
-Constraints:
+TAILS = program(
+    "W",
+    "t0, go, t1, dec, t2",
+    """
 A0(t1) == A1(t1)
 headway(A0, A1, t1) == 1.2 s
 A1a(dec) == -3 m/s^2
 A1v(t2) == 0
 {asked}
-"""
+""",
+)
 
 
 def at_once_mpss(asked: str, ego_name: str = "idm") -> float:
@@ -161,9 +157,9 @@ def test_who_is_asked_to_begin_near_does() -> None:
 
 
 def test_when_the_steps_are_spent_only_last_resorts_are_tried(monkeypatch: pytest.MonkeyPatch) -> None:
-    world, tried, plan_from = world_of(IN_TIME), [], beginning._plan_from
+    world, tried, plan_from = world_of(IN_TIME), list[EgoFirstState](), beginning._plan_from
 
-    def noted(world, start, *how):  # type: ignore[no-untyped-def]
+    def noted(world: World, start: EgoFirstState, *how: Any) -> beginning._Planned:
         tried.append(start)
         return plan_from(world, start, *how)
 

@@ -190,11 +190,12 @@ def _starts(world: World, predictor: Predictor) -> Iterator[EgoFirstState]:
     found = check_feasibility(world.scene, world.structure, world.limits, bounds, explain=False)
     if found.witness is None:
         return
-    first, motion = (EGO, world.scene.program.ego.sketch.knots[0]), found.witness.profiles[EGO]
-    start, name = EgoFirstState(*motion.state(0.0)[:2], last_resort=True), world.structure.trigger_knot(EGO)
-    is_placed = any(each.moments == {first} and each.weights[EGO][0] for each in conditions)
-    for _ in range(0 if is_placed or name is None else _SHIFTS):
-        foreseen = predictor.predict([(0.0, start.s_m, start.speed_mps, start.accel_mpss)])
-        then_s = motion.knot_times_s[name or ""]
-        start = replace(start, s_m=max(0.0, start.s_m + motion.state(then_s)[0] - foreseen.state(then_s)[0]))
+    motion, name = found.witness.profiles[EGO], world.structure.trigger_knot(EGO)
+    start = EgoFirstState(*motion.state(0.0)[:2], last_resort=True)
+    first = {(EGO, world.scene.program.ego.sketch.knots[0])}
+    if name is not None and not any(each.moments == first and each.weights[EGO][0] for each in conditions):
+        there_m = motion.state(then_s := motion.knot_times_s[name])[0]
+        for _ in range(_SHIFTS):
+            foreseen = predictor.predict([(0.0, start.s_m, start.speed_mps, start.accel_mpss)])
+            start = replace(start, s_m=max(0.0, start.s_m + there_m - foreseen.state(then_s)[0]))
     yield start

@@ -17,8 +17,9 @@ from scenewright.solve.proofs.polynomials import Formula
 from scenewright.solve.proofs.witness import Witness
 
 Array = NDArray[np.float64]
-_SPEED_MPS, _LASTS_S = (3.0, 13.0), (1.0, 5.0)  # between which everybody's speed lies, and how long pieces last
-_BEFORE_STOP_LINE_M = 60.0
+# Between which everybody's speed lies, and how long pieces last; where somebody begins of whom no place is told.
+# Chosen, as what is usual in town: a guess need not be possible.
+_SPEED_MPS, _LASTS_S, _BEFORE_STOP_LINE_M = (3.0, 13.0), (1.0, 5.0), 60.0
 
 
 def first_guess(events: Events, formulas: Iterable[Formula], generator: np.random.Generator | None) -> Array:
