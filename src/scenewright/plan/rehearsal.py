@@ -18,11 +18,12 @@ from scenewright.plan.prediction import EgoSample, Predictor
 _FINE_S, _FINE_STEP_S, _COARSE_S = 4.0, 0.1, 0.4
 _FINELY_S = np.arange(0.0, _FINE_S, _FINE_STEP_S)
 _STANDING_MPS = 0.3
+_OTHERWISE_S = 2.0  # after which one that is a little faster or slower than it was there drives as it did; chosen
 
 
 @dataclass(frozen=True, slots=True)
 class Rehearsed:
-    """The ego goes on as it did when it was last where it is now.
+    """The ego soon goes on as it did when it was last where it is now.
 
     Attributes
     ----------
@@ -43,7 +44,8 @@ class Rehearsed:
         if then_s is None or abs(self.drive.state(then_s)[1] - speed_mps) > self.alike_mps:
             return self.base.predict(history)
         at_s = np.concatenate([_FINELY_S, np.arange(_FINE_S, self.drive.end_s - then_s, _COARSE_S)])
-        speeds = [self.drive.state(then_s + soon_s)[1] for soon_s in at_s]
+        then = np.array([self.drive.state(then_s + soon_s)[1] for soon_s in at_s])
+        speeds = np.maximum(0.0, then + (speed_mps - then[0]) * np.maximum(0.0, 1.0 - at_s / _OTHERWISE_S))
         accels = np.diff(speeds) / np.diff(at_s)
         moves = [(lasts_s, accel, 0) for lasts_s, accel in zip(np.diff(at_s).tolist(), accels.tolist(), strict=True)]
         return Profile(chain(time_s, s_m, speed_mps, moves))
