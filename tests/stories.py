@@ -8,12 +8,13 @@ from functools import cache
 
 from scenewright.drive.guarded import GuardedPolicy
 from scenewright.drive.protocol import EgoPolicy, EgoStart, Observation
-from scenewright.orchestrate import Mode, Request, Result, orchestrate
+from scenewright.orchestrate import orchestrate
 from scenewright.plan.planner import Attempt, Planner
 from scenewright.plan.prediction import Driver, Predictor
 from scenewright.program.structure import Structure, read_structure
 from scenewright.program.text import parse_program
 from scenewright.program.types import EGO
+from scenewright.request import Mode, Request, Result
 from scenewright.roads.grounding import Scene, ground
 from scenewright.roads.load import load_map
 from scenewright.simulate.builtin import BuiltIn

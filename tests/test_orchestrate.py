@@ -12,10 +12,11 @@ import pytest
 from scenewright.errors import InputError, OutputError, ParameterError, ScenewrightError, TranslationError
 from scenewright.judge.files import judge_run_directory
 from scenewright.judge.tolerance import LOOSE, TIGHT
-from scenewright.orchestrate import EXIT_STATUS, Request, Result, orchestrate
+from scenewright.orchestrate import orchestrate
 from scenewright.program.printer import print_program
 from scenewright.program.resolve import resolve
 from scenewright.program.text import parse_program
+from scenewright.request import EXIT_STATUS, Request, Result
 from scenewright.roads import find_conflict
 from scenewright.trace.files import read_trace
 from scenewright.translate.model.exchange import TranslatorSettings

@@ -19,8 +19,9 @@ from scenewright.errors import ScenewrightError
 from scenewright.judge.judgement import judge
 from scenewright.judge.tolerance import LOOSE, TIGHT
 from scenewright.judge.verdict import Verdict
-from scenewright.orchestrate import Request, Result, Stages, case_of, orchestrate, set_up
+from scenewright.orchestrate import case_of, orchestrate, set_up
 from scenewright.program.evaluate import violation
+from scenewright.request import Request, Result, Stages
 from scenewright.roads.grounding import Scene
 from scenewright.simulate.loop import Rates
 from scenewright.simulate.witnessed import run_of_witness

@@ -13,7 +13,8 @@ from pathlib import Path
 
 from playwright.sync_api import sync_playwright
 
-from scenewright.orchestrate import Request, orchestrate
+from scenewright.orchestrate import orchestrate
+from scenewright.request import Request
 
 ROOT = Path(__file__).resolve().parents[1]
 IMAGES = ROOT / "docs" / "images"

@@ -20,10 +20,11 @@ from scenewright.judge.boxes import surely_apart_m
 from scenewright.judge.judgement import judge
 from scenewright.judge.tolerance import TIGHT
 from scenewright.judge.verdict import Verdict
-from scenewright.orchestrate import Request, case_of, orchestrate
+from scenewright.orchestrate import case_of, orchestrate
 from scenewright.plan.planner import Planner, Replan
 from scenewright.program.structure import actors_of
 from scenewright.program.text import parse_program
+from scenewright.request import Request
 from scenewright.roads.bodies import CAR
 from scenewright.roads.grounding import Scene, ground
 from scenewright.roads.load import load_map

@@ -10,138 +10,38 @@ What enters: a `Request`. What leaves: a `Result` and, where something was drive
 from __future__ import annotations
 
 import math
-import time
 from collections.abc import Callable, Mapping
-from contextlib import closing, contextmanager
-from dataclasses import dataclass, field, replace
+from contextlib import closing
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING
 
 from scenewright.errors import ScenewrightError
+from scenewright.explain.approach import approach_of
 from scenewright.judge.tolerance import LOOSE, TIGHT, dimension_of
 from scenewright.judge.tolerance import Tolerance as Tolerances
 from scenewright.program.check import check_values
 from scenewright.program.printer import print_program
+from scenewright.request import Report, Request, Result, Stages, Stop, Take
 from scenewright.roads.bodies import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M
 from scenewright.roads.grounding import Scene, ground
 from scenewright.roads.load import load_map
 from scenewright.simulate.loop import Rates
 from scenewright.simulate.world import World
-from scenewright.solve.feasibility import Feasibility
-from scenewright.solve.holding import NotHeld, not_held
+from scenewright.solve.holding import not_held
 from scenewright.solve.limits import Limits
-from scenewright.translate.model.exchange import TranslatorSettings
 from scenewright.translate.sources import read_scenario
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from scenewright.judge.case import Case
-    from scenewright.judge.verdict import Condition, Verdict
     from scenewright.plan.planner import Attempt
     from scenewright.program.types import Program
     from scenewright.simulate.ego_start import EgoFirstState
     from scenewright.simulate.heroes import HeroDriver
     from scenewright.simulate.loop import Run
     from scenewright.solve.proofs.witness import Witness
-    from scenewright.trace.model import Trace
     from scenewright.translate.understand import Understanding
-
-Mode = Literal["closed", "open"]
-PlannerName = Literal["convex", "smt"]
-Tolerance = Literal["tight", "loose"]
-Status = Literal["success", "failure", "infeasible", "gave up", "interrupted", "failed"]
-EXIT_STATUS: dict[Status, int] = {
-    "success": 0,
-    "failure": 1,
-    "failed": 2,
-    "infeasible": 3,
-    "gave up": 4,
-    "interrupted": 130,
-}
-Report = Callable[[str], None]
-Stop = Literal["check", "plan", "end"]
-
-# A hero that came later than this (s) is helped by an ego that starts at less than this share of its first speed.
-_MUCH_TOO_LATE_S, _MUCH_SLOWER = 1.0, 0.5
-# The share of its speed at which a hero comes that two takes have missed.
-_SLOW_PACE = 0.43
-
-
-@dataclass(frozen=True, slots=True)
-class Request:
-    """What a user asks for: the command line of ``scenewright run``, as data.
-
-    `solver` is what refutes; `explain` says what is found out about a run that misses, or about what cannot happen.
-    A `simulator` may drive the ego itself; the policy `ego` is then only asked how it would start. The `planner`
-    ``smt`` is the paper's own loop: it foresees the ego by itself, and rehearses nothing.
-    """
-
-    source: str
-    parameters: Mapping[str, float | str] = field(default_factory=dict)
-    map_name: str | None = None
-    ego: str = "idm"
-    mode: Mode = "closed"
-    tolerance: Tolerance = "tight"
-    seed: int = 0
-    translator: str = "auto"
-    out: Path | None = None
-    replan_hz: float = 10.0
-    predictor: str = "road"
-    takes: int = 3
-    explain: Literal["nothing", "cause", "ways out"] = "cause"
-    solver: str = "z3"
-    simulator: str = "builtin"
-    planner: PlannerName = "convex"
-    translation: TranslatorSettings = field(default_factory=TranslatorSettings)
-
-
-@dataclass(frozen=True, slots=True)
-class Take:
-    """How one take was judged, and what was driven; `hindsight` as in `Result`."""
-
-    verdict: Verdict
-    hindsight: Feasibility | None
-    trace: Trace | None = None
-
-
-@dataclass(slots=True)
-class Result:
-    """What came of a request.
-
-    Attributes
-    ----------
-    status
-        ``success`` or ``failure`` are verdicts; ``failed`` and ``interrupted`` runs were cut short.
-    not_held
-        What the first plan breaks beyond the loose tolerance; nothing was driven then.
-    no_plan
-        Why there is no first plan; empty where there is one.
-    hindsight
-        For a run that missed: the proof that against the ego as it drove no hero could have done it, if there is one.
-    run_directory
-        Where the files are; None where nothing was driven or nothing was to be written.
-    take
-        Which take this is: later ones knew how the ego had driven in the one before.
-    takes
-        Every take that was driven to its end, in order.
-    """
-
-    status: Status
-    scene: Scene
-    understanding: Understanding | None = None
-    feasibility: Feasibility | None = None
-    attempt: Attempt | None = None
-    not_held: tuple[NotHeld, ...] = ()
-    no_plan: str = ""
-    run: Run | None = None
-    hindsight: Feasibility | None = None
-    verdict: Verdict | None = None
-    run_directory: Path | None = None
-    take: int = 1
-    takes: tuple[Take, ...] = ()
-    timings_s: dict[str, float] = field(default_factory=dict)
 
 
 def orchestrate(
@@ -252,7 +152,7 @@ def _drive(
 def _rehearse(
     request: Request, first: Result, world: World, stages: Stages, progress: Callable[[float], None] | None
 ) -> Result:
-    """Take a missed run again, knowing how this ego drove, until one succeeds; return that one, or else the first.
+    """Take a run again, knowing how this ego drove, until one is as good as was asked for; return the best one.
 
     Every take is a whole closed-loop run that is judged as the first is. What an ego does that answers the hero is not
     known from a drive in which the hero drove otherwise: from the third take on the hero comes more slowly, too.
@@ -260,52 +160,33 @@ def _rehearse(
     from scenewright.plan.rehearsal import Rehearsed
     from scenewright.simulate.beginning import first_plan, is_timed_by_ego
     from scenewright.simulate.hindsight import drive_profile
+    from scenewright.takes import how_next, is_enough, worth
 
-    last = first
+    last = best = first
     for take in range(2, 1 + (request.takes if request.planner == "convex" else 1)):
-        if last.status != "failure" or request.mode == "open" or world.ego_bounds.holds_speed or last.run is None:
+        if request.mode == "open" or world.ego_bounds.holds_speed or last.run is None or is_enough(request, last):
             break
         drive = drive_profile(last.run.trace.actors[world.scene.program.ego.name])
         predictor = Rehearsed(drive, world.predictor)
-        pace = _SLOW_PACE if take > 2 and not _missed_only_outcome(last) else 1.0
-        slower_than_mps = math.inf if is_timed_by_ego(world) else _slower_than_mps(last, drive.state(0.0)[1])
-        ways = dict.fromkeys([(slower_than_mps, pace), (math.inf, 1.0)])
+        began_mps = math.inf if is_timed_by_ego(world) else drive.state(0.0)[1]
         try:
             with stages("plan"):
-                found = (first_plan(world, predictor, *wanted) for wanted in ways)
-                planned = next((each for each in found if each is not None), None)
+                ways = (first_plan(world, predictor, *wanted) for wanted in how_next(last, take, began_mps))
+                planned = next((each for each in ways if each is not None), None)
         except KeyboardInterrupt:  # what was driven is kept
-            return replace(first, takes=last.takes, status="interrupted")
+            return replace(best, takes=last.takes, status="interrupted")
         if planned is None:
             break  # nothing to drive, however the take begins
         last = replace(first, take=take, takes=last.takes, hindsight=None)
         _drive(request, last, world, planned, stages, progress)
-        if last.status == "success":
-            return last
         if last.status == "interrupted":
-            return replace(first, takes=last.takes, status="interrupted")
-    return replace(first, takes=last.takes)
-
-
-def _slower_than_mps(result: Result, began_mps: float) -> float:
-    """Return how slow the ego has to start in the next take; no matter unless all went well but the outcome.
-
-    An ego that starts slower leaves more time for it; where it was far from enough, much slower.
-    """
-    if not _missed_only_outcome(result):
-        return math.inf
-    late_s = max(condition.error or 0.0 for condition in _missed(result))
-    return began_mps if late_s < _MUCH_TOO_LATE_S else _MUCH_SLOWER * began_mps
-
-
-def _missed(result: Result) -> list[Condition]:
-    """Return the conditions that a take missed even at the loose tolerance."""
-    assert result.verdict is not None
-    return [condition for condition in result.verdict.conditions if not condition.holds_at(LOOSE)]
-
-
-def _missed_only_outcome(result: Result) -> bool:
-    return {condition.kind for condition in _missed(result)} == {"outcome"}
+            return replace(best, takes=last.takes, status="interrupted")
+        if last.status == "failed":
+            break
+        best = max(best, last, key=partial(worth, request))
+    if best.run is not None and best.verdict is not None:
+        best.run.findings += approach_of(best.scene, best.run.trace, best.verdict.facts).unnatural
+    return replace(best, takes=last.takes)
 
 
 def _tolerance(request: Request) -> Tolerances:
@@ -456,21 +337,3 @@ def case_of(scene: Scene, run: Run, limits: Mapping[int, Limits]) -> Case:
         expected_headings={actor.name: scene.routes[actor.id].headings for actor in actors},
         paths={actor.name: scene.routes[actor.id].path for actor in actors},
     )
-
-
-class Stages:
-    """Names and times the stages of one request."""
-
-    def __init__(self, report: Report | None) -> None:
-        self.seconds: dict[str, float] = {}
-        self.say: Report = report or (lambda _: None)
-
-    @contextmanager
-    def __call__(self, name: str) -> Iterator[None]:
-        """Time what is done inside as the stage `name`."""
-        self.say(name)
-        started = time.perf_counter()
-        try:
-            yield
-        finally:
-            self.seconds[name] = self.seconds.get(name, 0.0) + time.perf_counter() - started

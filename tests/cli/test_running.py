@@ -15,7 +15,8 @@ from rich.console import Console
 from scenewright.cli.running import _Shield, report_verdict
 from scenewright.judge.aftermath import Aftermath
 from scenewright.judge.verdict import Verdict
-from scenewright.orchestrate import EXIT_STATUS, Request, orchestrate
+from scenewright.orchestrate import orchestrate
+from scenewright.request import EXIT_STATUS, Request
 from stories import STORIES
 
 

@@ -12,7 +12,8 @@ from scenewright.explain.cause import cause_of
 from scenewright.judge.files import cause_told, write_verdict
 from scenewright.judge.tolerance import TIGHT
 from scenewright.judge.verdict import Cause, bounded
-from scenewright.orchestrate import Mode, Request, Result, Stages, orchestrate, set_up
+from scenewright.orchestrate import orchestrate, set_up
+from scenewright.request import Mode, Request, Result, Stages
 from stories import STOPS_AHEAD, STORIES, driven
 
 # Story, ego, further settings, and what it is.

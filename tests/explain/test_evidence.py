@@ -15,9 +15,10 @@ from scenewright.explain.evidence import (
     orders_with_ego,
 )
 from scenewright.judge.verdict import Verdict
-from scenewright.orchestrate import Request, Stages, orchestrate, set_up
+from scenewright.orchestrate import orchestrate, set_up
 from scenewright.plan.planner import GOOD
 from scenewright.program.text import parse_program
+from scenewright.request import Request, Stages
 from scenewright.simulate.loop import Run
 from scenewright.simulate.world import World
 from stories import HERO, STORIES

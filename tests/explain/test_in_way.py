@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from scenewright.explain.in_way import InWay, hero_in_way
-from scenewright.orchestrate import Request, Result, Stages, set_up
+from scenewright.orchestrate import set_up
+from scenewright.request import Request, Result, Stages
 from stories import STORIES, driven
 
 

@@ -13,8 +13,9 @@ import pytest
 from scenewright.explain.ways_out import ways_out
 from scenewright.judge.tolerance import TIGHT
 from scenewright.judge.verdict import Cause, Verdict
-from scenewright.orchestrate import Request, Result, Stages, orchestrate, set_up
+from scenewright.orchestrate import orchestrate, set_up
 from scenewright.program.types import Program
+from scenewright.request import Request, Result, Stages
 from scenewright.simulate.world import World
 from stories import STORIES
 

@@ -11,10 +11,11 @@ from situations import HERO, planner_of, scene_of
 from scenarios import BEHIND_ITSELF, FEASIBLE, TOO_FAST, YIELDS, Example, limits_of
 from scenewright.judge.tolerance import TIGHT, dimension_of
 from scenewright.motion.profile import Profile, chain
-from scenewright.orchestrate import Request, Stages, begin
+from scenewright.orchestrate import begin
 from scenewright.plan.planner import GOOD, Attempt, Planner
 from scenewright.program.evaluate import violation
 from scenewright.program.types import EGO
+from scenewright.request import Request, Stages
 from scenewright.roads.grounding import Scene
 from scenewright.simulate.beginning import first_plan
 from scenewright.solve.holding import not_held

@@ -12,10 +12,11 @@ import pytest
 from situations import HERO
 
 from scenarios import YIELDS, limits_of
-from scenewright.orchestrate import Request, Result, orchestrate
+from scenewright.orchestrate import orchestrate
 from scenewright.plan import smt
 from scenewright.plan.smt import SmtPlanner
 from scenewright.program.types import EGO
+from scenewright.request import Request, Result
 from scenewright.solve.proofs.events import EgoBounds
 
 SENTENCE = (

@@ -8,11 +8,12 @@ from pathlib import Path
 import pytest
 
 from scenarios import EXAMPLES, feasibility
-from scenewright.orchestrate import Request, orchestrate
+from scenewright.orchestrate import orchestrate
 from scenewright.program.builder import Scenario
 from scenewright.program.check import check_program
 from scenewright.program.printer import print_program
 from scenewright.program.text import parse_program
+from scenewright.request import Request
 from scenewright.roads.grounding import ground
 from scenewright.roads.load import load_map
 

@@ -8,9 +8,10 @@ from typing import Any
 import pytest
 
 from scenewright.judge.tolerance import TIGHT
-from scenewright.orchestrate import Request, Stages, begin, orchestrate
+from scenewright.orchestrate import begin, orchestrate
 from scenewright.program.starts import HARD_MPSS
 from scenewright.program.types import EGO
+from scenewright.request import Request, Stages
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.roads.conflicts import shared_offset_m
 from scenewright.simulate import beginning

@@ -12,7 +12,8 @@ from misbehaving import LATE_S
 from scenewright.errors import PolicyError
 from scenewright.judge.files import judge_run_directory
 from scenewright.judge.tolerance import LOOSE
-from scenewright.orchestrate import EXIT_STATUS, Request, Result, orchestrate
+from scenewright.orchestrate import orchestrate
+from scenewright.request import EXIT_STATUS, Request, Result
 from scenewright.trace.files import read_trace
 from stories import STORIES
 

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from scenewright.drive.hostile import Noisy
-from scenewright.orchestrate import Request, orchestrate
+from scenewright.orchestrate import orchestrate
+from scenewright.request import Request
 from stories import HERO, STORIES, Stage
 
 STORY = STORIES["yields, distance"]

@@ -9,9 +9,10 @@ import pytest
 from many_heroes import PROGRAMS, drive
 
 from scenewright.judge.tolerance import TIGHT
-from scenewright.orchestrate import Request, orchestrate
+from scenewright.orchestrate import orchestrate
 from scenewright.plan.planner import GOOD
 from scenewright.program.types import PieceKind
+from scenewright.request import Request
 from scenewright.simulate.hindsight import ego_left_no_room
 from scenewright.simulate.loop import Run
 from scenewright.solve.limits import ACCEL_MAX_MPSS, BRAKE_MAX_MPSS

@@ -10,9 +10,10 @@ from scenarios import YIELDS, limits_of
 from scenewright.judge.judgement import judge
 from scenewright.judge.tolerance import TIGHT
 from scenewright.judge.verdict import Verdict
-from scenewright.orchestrate import Request, case_of, orchestrate
+from scenewright.orchestrate import case_of, orchestrate
 from scenewright.program.structure import read_structure
 from scenewright.program.text import parse_program
+from scenewright.request import Request
 from scenewright.roads.grounding import Scene
 from scenewright.simulate.loop import Run
 from scenewright.simulate.witnessed import run_of_witness

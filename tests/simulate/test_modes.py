@@ -10,7 +10,8 @@ from functools import cache
 import pytest
 
 from scenewright.judge.tolerance import TIGHT
-from scenewright.orchestrate import Mode, Request, Result, orchestrate
+from scenewright.orchestrate import orchestrate
+from scenewright.request import Mode, Request, Result
 from stories import HERO
 
 ROAD = (

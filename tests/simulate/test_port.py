@@ -14,7 +14,8 @@ import toys
 from scenewright.errors import InputError, SimulatorError
 from scenewright.judge.files import judge_run_directory
 from scenewright.motion.profile import Profile
-from scenewright.orchestrate import EXIT_STATUS, Request, Result, orchestrate
+from scenewright.orchestrate import orchestrate
+from scenewright.request import EXIT_STATUS, Request, Result
 from scenewright.simulate.port import GROUP, SIMULATORS, Capabilities, Start, at_pose, on_route
 from scenewright.trace.files import read_trace
 from stories import STORIES, Scripted, Stage

@@ -9,8 +9,9 @@ import pytest
 
 from scenewright import __version__
 from scenewright.errors import OutputError
-from scenewright.orchestrate import Request, orchestrate
+from scenewright.orchestrate import orchestrate
 from scenewright.program.text import parse_program
+from scenewright.request import Request
 from scenewright.simulate.record import prepare_directory
 from scenewright.trace.files import read_trace
 from stories import STORIES

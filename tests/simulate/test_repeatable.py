@@ -12,7 +12,8 @@ from stories import STORIES
 CODE = """
 import sys
 from pathlib import Path
-from scenewright.orchestrate import Request, orchestrate
+from scenewright.orchestrate import orchestrate
+from scenewright.request import Request
 out, text = Path(sys.argv[1]), sys.stdin.read()
 for ego in sys.argv[2:]:
     name, seed = ego.split("/")

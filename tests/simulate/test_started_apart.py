@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from scenewright.orchestrate import Request, orchestrate
+from scenewright.orchestrate import orchestrate
+from scenewright.request import Request
 
 FOLLOWING = """
 map "t_intersection"

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from scenewright.orchestrate import EXIT_STATUS, Request, orchestrate
+from scenewright.orchestrate import orchestrate
+from scenewright.request import EXIT_STATUS, Request
 from stories import STORIES
 
 TOO_FAST = STORIES["yields, distance"].replace(

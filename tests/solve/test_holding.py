@@ -10,8 +10,9 @@ from forms import FORMS, PROBE
 from scenarios import YIELDS, limits_of
 from scenewright.judge.tolerance import LOOSE, dimension_of
 from scenewright.motion.profile import Profile, chain
-from scenewright.orchestrate import Request, orchestrate
+from scenewright.orchestrate import orchestrate
 from scenewright.program.text import parse_program
+from scenewright.request import Request
 from scenewright.roads.grounding import Scene, ground
 from scenewright.roads.load import load_map
 from scenewright.solve.holding import NotHeld, not_held

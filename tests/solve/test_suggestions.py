@@ -9,11 +9,12 @@ from fractions import Fraction
 import pytest
 
 from scenarios import INFEASIBLE, TOO_HARD, Example, feasibility, limits_of
-from scenewright.orchestrate import Request, Stages, orchestrate, set_up
+from scenewright.orchestrate import orchestrate, set_up
 from scenewright.program.printer import print_expression, print_program
 from scenewright.program.resolve import resolve
 from scenewright.program.structure import read_structure
 from scenewright.program.text import parse_program
+from scenewright.request import Request, Stages
 from scenewright.roads import load_map
 from scenewright.roads.grounding import Scene, ground
 from scenewright.solve.feasibility import check_feasibility

@@ -7,10 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from scenewright.orchestrate import Request, orchestrate
+from scenewright.orchestrate import orchestrate
 from scenewright.program.check import check_program
 from scenewright.program.printer import print_expression, print_program
 from scenewright.program.types import HeadingsRoute
+from scenewright.request import Request
 from scenewright.roads.grounding import ground
 from scenewright.roads.load import load_map
 from scenewright.study.benchmark import BenchmarkRow, benchmark_row, benchmark_rows, draw_row

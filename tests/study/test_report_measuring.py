@@ -8,9 +8,10 @@ from typing import Any
 import pytest
 
 from scenewright.judge.tolerance import TIGHT
-from scenewright.orchestrate import Request, orchestrate
+from scenewright.orchestrate import orchestrate
 from scenewright.program.check import check_program
 from scenewright.program.text import parse_program
+from scenewright.request import Request
 from scenewright.study.causes import INFEASIBLE, NEVER_MET
 from scenewright.study.report import loops, measuring, precision, times
 from scenewright.study.report.extra_figures import draw_grid

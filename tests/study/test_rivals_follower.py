@@ -9,8 +9,9 @@ import pytest
 
 from scenewright.drive.protocol import EgoMotion, VehicleState
 from scenewright.errors import PolicyError
-from scenewright.orchestrate import Request, Stages, set_up
+from scenewright.orchestrate import set_up
 from scenewright.plan.planner import Planner
+from scenewright.request import Request, Stages
 from scenewright.simulate.beginning import first_plan
 from scenewright.simulate.loop import Rates, Run, simulate
 from scenewright.simulate.port import Start

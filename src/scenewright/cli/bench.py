@@ -31,7 +31,7 @@ from scenewright.cli.options import AsJson
 from scenewright.errors import InputError, MissingExtraError, Place
 
 if TYPE_CHECKING:
-    from scenewright.orchestrate import Request, Result
+    from scenewright.request import Request, Result
     from scenewright.study.experiment import Experiment, Progress
     from scenewright.study.store import CaseRecord, Results
 
@@ -212,7 +212,7 @@ def replay(
     """Run one case again, by its own method, and write its run with a page to look at."""
     with told(as_json):
         from scenewright.cli.directories import claim
-        from scenewright.orchestrate import EXIT_STATUS
+        from scenewright.request import EXIT_STATUS
         from scenewright.study.benchmark import benchmark_row
         from scenewright.study.cases import carry_out_case, case_of_record, keep_run
         from scenewright.study.store import read_results
@@ -248,7 +248,7 @@ def _record(results: Results, case: str) -> CaseRecord:
 
 def _tell_replayed(record: CaseRecord, again: CaseRecord, request: Request, result: Result, as_json: bool) -> None:
     from scenewright.cli.running import report_run, result_data, tell_no_plan
-    from scenewright.orchestrate import EXIT_STATUS
+    from scenewright.request import EXIT_STATUS
 
     same = (record.cause, record.kept, record.take) == (again.cause, again.kept, again.take)
     if as_json:

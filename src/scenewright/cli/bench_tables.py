@@ -18,9 +18,9 @@ if TYPE_CHECKING:
     from rich.console import Console
     from rich.table import Table
 
-    from scenewright.study.approach import Naturalness
     from scenewright.study.compare import Comparison, Pair
     from scenewright.study.evaluation import Outcome
+    from scenewright.study.naturalness import Naturalness
     from scenewright.study.store import CaseRecord, Results
 
 _SHOWN = 12

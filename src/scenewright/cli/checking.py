@@ -22,7 +22,7 @@ from scenewright.cli.translators import Asked, with_asked
 from scenewright.errors import ScenewrightError
 
 if TYPE_CHECKING:
-    from scenewright.orchestrate import Request, Result
+    from scenewright.request import Request, Result
 
 More = Annotated[
     list[str] | None,
@@ -106,7 +106,7 @@ def _check_each(all_asked: Sequence[Asked], out: Path | None, solver: str, as_js
 
 
 def _carry_out(asked: Asked, folder: Claim | None, solver: str, quiet: bool) -> tuple[Request, Result, int]:
-    from scenewright.orchestrate import EXIT_STATUS
+    from scenewright.request import EXIT_STATUS
 
     try:
         request = asked.request(out=folder.path if folder is not None else None, solver=solver)

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 _NUMBER = re.compile(r"[-+]?[\d_]*\.?[\d_]+(e[-+]?\d+)?", re.IGNORECASE)
 Mode = Literal["closed", "open"]
 Tolerance = Literal["tight", "loose"]
+Level = Literal["fine", "tight", "loose", "coarse"]
 PlannerName = Literal["convex", "smt"]
 FailOn = Literal["collision"]
 
@@ -193,6 +194,14 @@ PlannerOption = Annotated[
 ]
 ToleranceOption = Annotated[
     Tolerance, typer.Option("--tolerance", help="Which tolerance decides whether the run is a success.")
+]
+AimOption = Annotated[
+    Level | None,
+    typer.Option(
+        "--aim",
+        help="Takes go on until one holds at this tolerance, naturally driven. Default: that of --tolerance.",
+        show_default=False,
+    ),
 ]
 FailOnOption = Annotated[
     FailOn | None,

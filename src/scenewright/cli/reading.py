@@ -95,7 +95,7 @@ def solve(asked: Asked, out: PlanFile = None, as_json: AsJson = False) -> None:
     """Plan the scenario for an ego that keeps its speed, and print the plan; nothing is driven."""
     with told(as_json):
         from scenewright.cli import tables
-        from scenewright.orchestrate import EXIT_STATUS
+        from scenewright.request import EXIT_STATUS
 
         request = asked.request(mode="open")
         result = carry_out(request, until="plan", quiet=as_json)

@@ -20,7 +20,16 @@ import typer
 from scenewright.cli.console import print_json, stderr, stdout
 from scenewright.cli.directories import claim
 from scenewright.cli.faults import error_data, tell, told
-from scenewright.cli.options import AsJson, FailOn, FailOnOption, ModeOption, PlannerOption, Simulator, ToleranceOption
+from scenewright.cli.options import (
+    AimOption,
+    AsJson,
+    FailOn,
+    FailOnOption,
+    ModeOption,
+    PlannerOption,
+    Simulator,
+    ToleranceOption,
+)
 from scenewright.cli.translators import Asked, with_asked
 from scenewright.cli.translators import ask as on_terminal
 from scenewright.errors import PolicyError
@@ -29,7 +38,7 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from scenewright.judge.verdict import Verdict
-    from scenewright.orchestrate import Request, Result, Stop
+    from scenewright.request import Request, Result, Stop
     from scenewright.translate.story import Question
 
 _SAYS = {
@@ -65,8 +74,9 @@ def run(
     ] = 10.0,
     takes: Annotated[
         int,
-        typer.Option(min=1, max=20, help="Runs until one succeeds; a later one knows how the ego drove in the last."),
+        typer.Option(min=1, max=20, help="Runs until one is good; a later one knows how the ego drove in the last."),
     ] = 3,
+    aim: AimOption = None,
     predictor: Annotated[
         str, typer.Option(help="How the ego is foreseen: road (slows for turns and lines), acceleration or speed.")
     ] = "road",
@@ -88,6 +98,7 @@ def run(
             replan_hz=replan_hz,
             predictor=predictor,
             takes=takes,
+            aim=aim,
             explain="ways out" if ways_out else "cause",
             simulator=simulator,
             planner=planner,
@@ -183,7 +194,7 @@ class _Shield:
 # -- telling --------------------------------------------------------------------------------------------------------
 def _tell(request: Request, result: Result, fail_on: FailOn | None, as_json: bool, quiet: bool) -> int:
     """Print what came of a run and return the exit status."""
-    from scenewright.orchestrate import EXIT_STATUS
+    from scenewright.request import EXIT_STATUS
 
     status = EXIT_STATUS[result.status]
     if status == 0 and fails_on(result.verdict, fail_on):
@@ -281,6 +292,10 @@ def report_run(console: Console, request: Request, result: Result) -> None:
     tables.tell_understood(console, result.scene.program, result.understanding)
     report_verdict(console, verdict, request.tolerance, result.run.status if result.run else "finished")
     rows = tables.parameters(result.scene, request.parameters)
+    if len(result.takes) > 1:
+        rows.append(
+            ("take", f"{result.take}, the best of {len(result.takes)}; a later one knows how the ego drove before")
+        )
     rows += [("assumed", text) for text in result.scene.notes]
     rows += [("map", text) for text in result.scene.road_map.notes]
     rows += [("finding", text) for text in (result.run.findings if result.run else ())]

@@ -25,7 +25,7 @@ from scenewright.translate.model.exchange import (
 )
 
 if TYPE_CHECKING:
-    from scenewright.orchestrate import Request
+    from scenewright.request import Request
     from scenewright.translate.story import Question
 
 _PANEL = "Translation"
@@ -143,7 +143,7 @@ class Asked:
 
     def request(self, **more: Any) -> Request:
         """Return the request, with what a command adds to it; raises `ParameterError` where a value is none."""
-        from scenewright.orchestrate import Request
+        from scenewright.request import Request
 
         values = parameters_of(self.parameter)
         return Request(

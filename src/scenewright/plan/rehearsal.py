@@ -9,16 +9,21 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import numpy as np
+
 from scenewright.motion.profile import Profile, chain
 from scenewright.plan.prediction import EgoSample, Predictor
 
-_HORIZON_S = 15.0
+# It is looked at so often (s) for the first seconds, and then that often: enough for what is planned again by then.
+_FINE_S, _FINE_STEP_S, _COARSE_S = 4.0, 0.1, 0.4
+_FINELY_S = np.arange(0.0, _FINE_S, _FINE_STEP_S)
 _STANDING_MPS = 0.3
+_OTHERWISE_S = 2.0  # after which one that is a little faster or slower than it was there drives as it did; chosen
 
 
 @dataclass(frozen=True, slots=True)
 class Rehearsed:
-    """The ego goes on as it did when it was last where it is now.
+    """The ego soon goes on as it did when it was last where it is now.
 
     Attributes
     ----------
@@ -38,15 +43,12 @@ class Rehearsed:
         then_s = self._when(history)
         if then_s is None or abs(self.drive.state(then_s)[1] - speed_mps) > self.alike_mps:
             return self.base.predict(history)
-        moves: list[tuple[float, float, int]] = []
-        for segment in self.drive.cut(then_s).segments:
-            if segment.start_s > then_s + _HORIZON_S:
-                break
-            if moves and abs(moves[-1][1] - segment.accel_mpss) < 1e-3:
-                moves[-1] = (moves[-1][0] + segment.duration_s, moves[-1][1], 0)
-            else:
-                moves.append((segment.duration_s, segment.accel_mpss, 0))
-        return Profile(chain(time_s, s_m, speed_mps, moves or [(1.0, 0.0, 0)]))
+        at_s = np.concatenate([_FINELY_S, np.arange(_FINE_S, self.drive.end_s - then_s, _COARSE_S)])
+        then = np.array([self.drive.state(then_s + soon_s)[1] for soon_s in at_s])
+        speeds = np.maximum(0.0, then + (speed_mps - then[0]) * np.maximum(0.0, 1.0 - at_s / _OTHERWISE_S))
+        accels = np.diff(speeds) / np.diff(at_s)
+        moves = [(lasts_s, accel, 0) for lasts_s, accel in zip(np.diff(at_s).tolist(), accels.tolist(), strict=True)]
+        return Profile(chain(time_s, s_m, speed_mps, moves))
 
     def _when(self, history: Sequence[EgoSample]) -> float | None:
         """Return the moment of the drive that is like now: as long at this place as the ego has been by now."""

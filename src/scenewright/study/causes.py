@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from scenewright.orchestrate import Result
+    from scenewright.request import Result
 
 INFEASIBLE = "proven infeasible"
 NEVER_MET = "ego never met the condition"

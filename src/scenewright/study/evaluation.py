@@ -13,7 +13,8 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
 from scenewright.errors import InputError, Place, ScenewrightError
-from scenewright.orchestrate import Request, Result, orchestrate
+from scenewright.orchestrate import orchestrate
+from scenewright.request import Request, Result
 from scenewright.study.causes import cause_of
 from scenewright.study.draws import draw_parameters
 from scenewright.study.workers import Crash, each_done

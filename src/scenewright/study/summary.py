@@ -14,8 +14,8 @@ from dataclasses import asdict, dataclass, field
 from itertools import chain
 from typing import Any, Protocol, TypeVar
 
-from scenewright.study.approach import Naturalness, naturalness
 from scenewright.study.causes import EGO_DENIED, INFEASIBLE, NOT_OURS
+from scenewright.study.naturalness import Naturalness, naturalness
 from scenewright.study.store import CaseRecord
 
 LEVEL_NAMES = ("fine", "tight", "loose", "coarse")

@@ -9,7 +9,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from scenewright.orchestrate import Request, Result, orchestrate
+from scenewright.orchestrate import orchestrate
+from scenewright.request import Request, Result
 
 # One scenario of each kind: yield, stop and go, go first, brake at a rate; distances and times to arrival.
 SCENARIOS: tuple[str, ...] = (

@@ -60,7 +60,8 @@ def _drawn(scene: str, seed: int, draw: int) -> dict[str, float]:
 def run_loop(job: Job) -> Measured:
     """Run one scenario once."""
     from scenewright.judge.tolerance import LOOSE, TIGHT
-    from scenewright.orchestrate import Request, orchestrate
+    from scenewright.orchestrate import orchestrate
+    from scenewright.request import Request
 
     request = Request(job["program"], job["parameters"], ego=job["ego"], seed=job["seed"], mode=job["mode"], takes=1)
     result = orchestrate(request)

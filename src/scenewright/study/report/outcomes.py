@@ -85,19 +85,19 @@ def tolerance_table(records: Sequence[CaseRecord]) -> Table:
 
 
 def takes_table(own: Sequence[CaseRecord]) -> Table:
-    """Return one line an ego: with which take our method first succeeded at tight tolerance."""
+    """Return one line an ego: whether the first take succeeded at tight tolerance, or else which was kept."""
     over = [record for record in own if record.cause not in NOT_OURS]
     most = max((record.takes for record in over), default=1)
     rows: list[tuple[Value, ...]] = []
     for ego, cases in (*grouped(over, lambda record: record.ego).items(), ("all", over)):
-        won = [_first_success(record) for record in cases]
+        won = [_take_of_success(record) for record in cases]
         rows.append((ego, len(cases), *(won.count(take) for take in range(1, most + 1)), won.count(None)))
     takes = {f"take_{take}": f"success in take {take}" for take in range(1, most + 1)}
     columns = {"ego": "ego", "counted": "counted", **takes, "none": "no success"}
-    return Table("takes", "First success at tight tolerance by take, ours", columns, tuple(rows))
+    return Table("takes", "Success at tight tolerance, ours: in the first take, or else in the one that was kept", columns, tuple(rows))
 
 
-def _first_success(record: CaseRecord) -> int | None:
+def _take_of_success(record: CaseRecord) -> int | None:
     if record.first_tight:
         return 1
     return max(2, record.take) if record.best_tight else None

@@ -91,7 +91,7 @@ def scene_text(name: str) -> str:
 def run_cell(job: Job) -> Measured:
     """Run one cell by one method."""
     from scenewright.judge.tolerance import LOOSE, TIGHT
-    from scenewright.orchestrate import Request
+    from scenewright.request import Request
     from scenewright.study.rivals import run_method
 
     parameters = {

@@ -10,7 +10,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from scenewright.orchestrate import Request, Result
+    from scenewright.request import Request, Result
 
 METHODS: dict[str, str] = {
     "scenewright": "plans, and re-solves in closed loop; may rehearse",

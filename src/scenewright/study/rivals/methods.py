@@ -17,16 +17,9 @@ import numpy as np
 from scenewright.drive.loading import load_policy
 from scenewright.errors import InputError
 from scenewright.judge.tolerance import LOOSE, dimension_of
-from scenewright.orchestrate import (
-    Request,
-    Result,
-    Stages,
-    begin,
-    judge_run,
-    orchestrate,
-    write_result,
-)
+from scenewright.orchestrate import begin, judge_run, orchestrate, write_result
 from scenewright.plan.planner import Planner
+from scenewright.request import Request, Result, Stages
 from scenewright.simulate.beginning import first_plan
 from scenewright.simulate.ego_start import EgoFirstState
 from scenewright.simulate.heroes import HeroDriver

@@ -6,9 +6,9 @@ speeds alone, the same for every method. Nothing here decides whether a run is a
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -52,6 +52,13 @@ class Approach:
     jerks_mpsss: list[float] = field(default_factory=list)
     accels_mpss: list[float] = field(default_factory=list)
     pace: float | None = None
+
+    @property
+    def unnatural(self) -> list[str]:
+        """What people would not do, in words."""
+        harshly = "braked and sped up, or the other way round, harshly within 1.5 s (by more than 1 m/s^2 each)"
+        told = {harshly: self.reverses, "stood for half a second or more, though no text has it stand": self.stands}
+        return [f"Before its trigger a hero {what}." for what, is_so in told.items() if is_so]
 
 
 def approach_of(scene: Scene, trace: Trace, facts: Mapping[str, Any]) -> Approach:
@@ -104,51 +111,3 @@ def _longest(held: NDArray[np.bool_]) -> int:
         run = run + 1 if each else 0
         longest = max(longest, run)
     return longest
-
-
-# -- of many runs -----------------------------------------------------------------------------------------------------
-class Approached(Protocol):
-    """Anything that tells of an approach as `Approach` does."""
-
-    @property
-    def reverses(self) -> bool: ...  # noqa: D102
-
-    @property
-    def stands(self) -> bool: ...  # noqa: D102
-
-    @property
-    def jerks_mpsss(self) -> list[float]: ...  # noqa: D102
-
-    @property
-    def accels_mpss(self) -> list[float]: ...  # noqa: D102
-
-    @property
-    def pace(self) -> float | None: ...  # noqa: D102
-
-
-@dataclass(frozen=True, slots=True)
-class Naturalness:
-    """How natural the approaches of many runs are; None where there is nothing to tell."""
-
-    runs: int
-    reversing: float | None
-    standing: float | None
-    jerk_p95_mpsss: float | None
-    accel_p95_mpss: float | None
-    pace_median: float | None
-
-
-def naturalness(approaches: Iterable[Approached]) -> Naturalness:
-    """Return shares of runs, 95th percentiles over all moments, and the median pace at the trigger."""
-    runs = list(approaches)
-    jerks = [jerk for each in runs for jerk in each.jerks_mpsss]
-    accels = [accel for each in runs for accel in each.accels_mpss]
-    paces = [each.pace for each in runs if each.pace is not None]
-    return Naturalness(
-        len(runs),
-        float(np.mean([each.reverses for each in runs])) if runs else None,
-        float(np.mean([each.stands for each in runs])) if runs else None,
-        float(np.percentile(jerks, 95)) if jerks else None,
-        float(np.percentile(accels, 95)) if accels else None,
-        float(np.median(paces)) if paces else None,
-    )

@@ -8,11 +8,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from scenewright.orchestrate import Request, orchestrate
+from scenewright.explain.approach import Approach, approach_of
+from scenewright.orchestrate import orchestrate
 from scenewright.program.text import parse_program
+from scenewright.request import Request
 from scenewright.roads import load_map
 from scenewright.roads.grounding import ground
-from scenewright.study.approach import Approach, approach_of, naturalness
 from scenewright.trace.model import ActorTrace, Trace
 from stories import STORIES
 
@@ -81,15 +82,12 @@ def test_pace_is_of_what_road_and_following_leave() -> None:
 
 def test_nothing_is_told_of_a_hero_without_a_trigger() -> None:
     assert seen(driven((END_S, 0.0)), None) == Approach()
-    assert naturalness([]).runs == 0
-    assert naturalness([Approach()]).pace_median is None
 
 
-def test_many_runs_are_shares_percentiles_and_a_median() -> None:
-    runs = [seen(driven((3.0, rate), (5.0, -rate))) for rate in (0.5, 0.8, 1.5, 2.0)]
-    told = naturalness(runs)
-    assert (told.runs, told.reversing, told.standing) == (4, 0.5, 0.0)
-    assert told.accel_p95_mpss == pytest.approx(2.0, abs=0.01)
+def test_what_people_would_not_do_is_told() -> None:
+    assert seen(driven((END_S, 0.0))).unnatural == []
+    assert "stood" in " ".join(seen(driven((2.0, -5.0), (4.0, 0.0), (END_S, 0.5))).unnatural)
+    assert "harshly" in " ".join(seen(driven((3.0, 1.5), (5.0, -1.5))).unnatural)
 
 
 def test_a_real_run_approaches_calmly() -> None:
