@@ -94,7 +94,12 @@ def takes_table(own: Sequence[CaseRecord]) -> Table:
         rows.append((ego, len(cases), *(won.count(take) for take in range(1, most + 1)), won.count(None)))
     takes = {f"take_{take}": f"success in take {take}" for take in range(1, most + 1)}
     columns = {"ego": "ego", "counted": "counted", **takes, "none": "no success"}
-    return Table("takes", "Success at tight tolerance, ours: in the first take, or else in the one that was kept", columns, tuple(rows))
+    return Table(
+        "takes",
+        "Success at tight tolerance, ours: in the first take, else in the one that was kept",
+        columns,
+        tuple(rows),
+    )
 
 
 def _take_of_success(record: CaseRecord) -> int | None:
