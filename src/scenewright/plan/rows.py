@@ -141,16 +141,21 @@ class HeroRows:
     def _limits(self) -> None:
         """Add what no motion exceeds: nobody drives backwards, or faster than road and bends allow."""
         wanted, caps, limits = self.asked.wanted, self.asked.caps[self.hero.id], self.asked.limits[self.hero.id]
-        number = self._trigger_leg()
-        acts = len(self.shot.s) if number is None else self.shot.first_node[number]
-        onto = np.arange(1, len(self.shot.s)) > acts  # on its way to whatever road comes next
+        number, shot = self._trigger_leg(), self.shot
+        acts = len(shot.s) if number is None else shot.first_node[number]
+        onto = np.arange(1, len(shot.s)) > acts  # on its way to whatever road comes next
         natural = np.where(onto, limits.natural_speed_mps, limits.natural_approach_speed_mps)
-        (most, slope), (comfortable, other) = caps.at(self.shot.s)
-        v, d_s, d_v = self.shot.v[1:], self.shot.d_s[1:], self.shot.d_v[1:]
+        # Who brakes into a bend is midway between two nodes faster than the second of them alone allows there.
+        s, v, d_s, d_v = (0.5 * (each[1:] + each[:-1]) for each in (shot.s, shot.v, shot.d_s, shot.d_v))
+        most, slope = caps.at(s)[0]
+        bends = most < max(caps.most)
+        self.bounds.add_all((v - most)[bends], (d_v - slope[:, None] * d_s)[bends], FIRM * wanted.price)
+        (most, slope), (comfortable, other) = caps.at(shot.s)
+        v, d_s, d_v = shot.v[1:], shot.d_s[1:], shot.d_v[1:]
         self.bounds.add_all(-v, -d_v, FIRM * wanted.price)
         # Its last knot is on its road, unless the program asks for one at its end.
         end_m = self.asked.scene.routes[self.hero.id].landmarks["route_end"] - VEHICLE_LENGTH_M
-        s_m, _, d_s_m, _ = self.shot.at_node(self.shot.first_node[-2])
+        s_m, _, d_s_m, _ = shot.at_node(shot.first_node[-2])
         self.bounds.add(s_m - end_m, d_s_m, wanted.price / _TIGHT_LENGTH, wanted.out_of_way_most)
         self.bounds.add_all(v - most[1:], d_v - slope[1:, None] * d_s, FIRM * wanted.price)
         self.costs.beyond(v - comfortable[1:], d_v - other[1:, None] * d_s, wanted.lateral_weight)
