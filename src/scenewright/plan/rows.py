@@ -137,6 +137,10 @@ class HeroRows:
                     usual = min(max(usual, float(narrowing.law.rate_low)), float(narrowing.law.rate_high))
         return usual
 
+    def _faint(self, number: int) -> float:
+        """Return by what share less a leg is begun than usual: who is to brake at 0.2 m/s^2 does not begin with more."""
+        return min(1.0, abs(self._usual_rate(number)) / self.asked.wanted.beginning_mpss)
+
     # -- limits -------------------------------------------------------------------------------------------------------
     def _limits(self) -> None:
         """Add what no motion exceeds: nobody drives backwards, or faster than road and bends allow."""
@@ -172,8 +176,9 @@ class HeroRows:
             if self._sets_off(number):
                 self._begins(number, 1.0)
             sense = _SENSE.get(leg.kind, 0.0)
+            least_mpss = self._faint(number) * self.asked.wanted.least_rate_mpss
             for accel in leg.accels if sense else ():
-                short = self.asked.wanted.least_rate_mpss - sense * float(self.shot.z[accel])
+                short = least_mpss - sense * float(self.shot.z[accel])
                 # Braking that pauses is seen to begin anew; who has sped up may well go on evenly.
                 pauses = price if leg.kind is PieceKind.DEC else self.asked.wanted.least_rate_price
                 self.bounds.add(short, self._unit((accel, -sense)), pauses)
@@ -215,22 +220,24 @@ class HeroRows:
         if sense is None:
             return
         self._begins(number, sense)
+        settled_mpss, early_mpss = (self._faint(number) * mpss for mpss in (wanted.settled_mpss, wanted.early_mpss))
         settled_s = shot.time[node] - wanted.settled_s - _ROUNDING_S
         for before, leg in enumerate(shot.legs[:number]):
             for k, accel in enumerate(leg.accels if leg.kind is PieceKind.GO else ()):
                 pull, slope = sense * float(shot.z[accel]), self._unit((accel, sense))
                 if shot.time[shot.first_node[before] + k] > settled_s:
-                    self.bounds.add(pull - wanted.settled_mpss, slope, rate)
+                    self.bounds.add(pull - settled_mpss, slope, rate)
                 else:  # what is to begin at the trigger is not plainly done before it
-                    self.bounds.add(pull - wanted.early_mpss, slope, wanted.early_price)
+                    self.bounds.add(pull - early_mpss, slope, wanted.early_price)
 
     def _begins(self, number: int, sense: float) -> None:
         """Add that a leg is visibly begun: by speeding up (1) or slowing down (-1) from its first moment on."""
         wanted, shot, node = self.asked.wanted, self.shot, self.shot.first_node[number]
         lasts = max(float(shot.time[node + 1] - shot.time[node]), 1e-3)
+        visible_mpss = self._faint(number) * wanted.beginning_mpss
         for k, accel in enumerate(shot.legs[number].accels):
             if (k - 1) * lasts < wanted.beginning_s:
-                short = wanted.beginning_mpss - sense * float(shot.z[accel])
+                short = visible_mpss - sense * float(shot.z[accel])
                 self.bounds.add(short, self._unit((accel, -sense)), wanted.price / _TIGHT_RATE)
 
     def _sets_off(self, number: int) -> bool:
