@@ -138,7 +138,7 @@ class HeroRows:
         return usual
 
     def _faint(self, number: int) -> float:
-        """Return by what share less a leg is begun than usual: who is to brake at 0.2 m/s^2 does not begin with more."""
+        """Return how faintly a leg is begun, as a share of what is usual: one at 0.2 m/s^2 does not begin harder."""
         return min(1.0, abs(self._usual_rate(number)) / self.asked.wanted.beginning_mpss)
 
     # -- limits -------------------------------------------------------------------------------------------------------
