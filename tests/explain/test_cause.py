@@ -170,6 +170,32 @@ def test_where_all_that_was_asked_was_done_what_else_was_missed_is_told() -> Non
     assert "no plan was found" not in found.text
 
 
+def test_what_was_to_last_and_was_broken_is_not_mended_by_a_later_plan() -> None:
+    """The hero may not change its speed, so it cannot make up for an ego that is late."""
+    program = """
+Actor 0 (ego):
+- W
+- [t0, go, t1, go, t2]
+
+Actor 1 (hero):
+- E, N
+- [t0, go, t1, go, t2]
+
+Constraints:
+A0(t1) == A1(t1)
+A0x(t1) == conflict_point - 30
+A1x(t1) == conflict_point - 12
+always[A1(t0), A1(t2)] (A1v == 15 km/h)
+A1x(t2) == conflict_point + 8
+"""
+    result = orchestrate(Request(program, ego="noisy", seed=1, takes=1))
+    assert result.run is not None
+    found = cause(result)
+    assert found.kind == "prediction"
+    broken = max(result.run.replans, key=lambda tick: tick.tolerance)
+    assert found.evidence["planned_s"] < broken.time_s
+
+
 def test_where_each_waits_for_the_other_it_is_said_that_the_ego_stood() -> None:
     """The one on the road stands before the driveway until the ego has passed, and that one gives way to it."""
     program = """

@@ -87,6 +87,7 @@ def test_formula(formula: str, tight: bool, loose: bool) -> None:
         ("A1a(acc) == 3", "no piece acc"),
         ("always[0, 5](eventually[0, 3](A1v >= 3))", "inside another"),
         ("always[40, 50](A1v >= 3)", "ended before"),
+        ("always[9, 50](A1v <= 0.1)", "before the stretch of time did"),  # nobody saw whether it did stand so long
     ],
 )
 def test_what_cannot_be_judged_fails_and_says_why(formula: str, reason: str) -> None:

@@ -99,6 +99,17 @@ def test_a_vehicle_without_a_trigger_does_not_put_off_that_of_the_others() -> No
     assert collisions(hit_late) == set()
 
 
+def test_in_a_program_without_a_trigger_only_who_drives_into_the_ego_spoils_it() -> None:
+    """A vehicle that stands in the ego's lane is there from the start: to hit it is what the test finds."""
+    program = PROGRAM.replace("A0(t1) == A1(t1)\nA0(t1) == A2(t1)\n", "A1v(t0) == 0\n")
+    ahead, behind = Motion(40.0, 0.0, []), Motion(-100.0, 5.0, [])
+    hit = judged(ahead, behind, program=program)
+    assert hit.aftermath.collision is not None
+    assert hit.aftermath.collision.actors == ("ego", "first")
+    assert collisions(hit) == set()
+    assert collisions(judged(Motion(140.0, 10.0, []), Motion(-20.0, 14.0, []), program=program)) == {"no_collision"}
+
+
 MEETS = Play(
     text=text(
         "[t0, go, t1, go, t2]", "A0(t1) == A1(t1)\nA0x(t1) == conflict_point\nA1x(t1) == conflict_point\nA1v(t1) == 12"

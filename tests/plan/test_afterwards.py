@@ -11,6 +11,7 @@ from situations import planner_of, scene_of
 
 from scenewright.motion.profile import Profile, Segment
 from scenewright.plan.afterwards import goes_on
+from scenewright.plan.asked import Caps
 from scenewright.plan.pairs import Meeting
 from scenewright.plan.preferences import Preferences
 from scenewright.program.types import EGO
@@ -19,6 +20,7 @@ from scenewright.roads.bodies import VEHICLE_LENGTH_M
 WANTED, TICK_S, LASTS_S = Preferences(), 0.1, 40.0
 SURELY_M = 0.3
 NEVER = np.inf
+STRAIGHT = Caps(np.array([0.0]), np.array([NEVER]), np.array([NEVER]))
 LANE = Meeting(1, 2, None, ((0.0, NEVER), (0.0, NEVER)))
 LATER_LANE = Meeting(2, 3, None, ((0.0, NEVER), (0.0, NEVER)))
 
@@ -37,7 +39,7 @@ def driven(motions: dict[int, Profile], meetings: tuple[Meeting, ...], *heroes: 
     """Return what becomes of motions of which these are looked at in every tick."""
     for k in range(1, round(LASTS_S / TICK_S)):
         for hero in heroes:
-            motions[hero] = goes_on(hero, motions, meetings, k * TICK_S, WANTED)
+            motions[hero] = goes_on(hero, motions, meetings, k * TICK_S, WANTED, STRAIGHT)
     return motions
 
 
@@ -79,10 +81,29 @@ def test_who_goes_second_waits_before_a_stretch_until_the_first_is_out(comes: bo
     assert hardest(motions[2]) <= 3.0
 
 
+@given(bend_m=st.floats(30.0, 80.0), speed_mps=st.floats(2.0, 13.0), comfortable_mps=st.floats(4.0, 8.0))
+def test_who_comes_to_a_bend_is_slow_enough_there_and_brakes_no_sooner_than_it_has_to(
+    bend_m: float, speed_mps: float, comfortable_mps: float
+) -> None:
+    along = np.arange(0.0, 300.0, 0.5)
+    comfortable = np.where((along >= bend_m) & (along <= bend_m + 20.0), comfortable_mps, NEVER)
+    caps = Caps(along, 1.5 * comfortable, comfortable)
+    motion = even(0.0, speed_mps)
+    for k in range(1, round(LASTS_S / TICK_S)):
+        motion = goes_on(1, {1: motion}, (), k * TICK_S, WANTED, caps)
+    least_mps = min(speed_mps, comfortable_mps)
+    assert motion.state(LASTS_S)[1] == pytest.approx(least_mps, abs=0.05)
+    if bend_m > (speed_mps**2 - comfortable_mps**2) / (2.0 * WANTED.accel_mpss) + speed_mps * TICK_S:
+        assert hardest(motion) < WANTED.braking_mpss + 1e-9
+    at_m = np.array([motion.state(float(t))[:2] for t in np.arange(0.0, LASTS_S, 0.02)])
+    inside = at_m[(at_m[:, 0] >= bend_m) & (at_m[:, 0] <= bend_m + 20.0), 1]
+    assert inside.max() <= 1.5 * comfortable_mps + 1e-6
+
+
 def test_who_is_in_nobodys_way_goes_on_as_it_does() -> None:
     motions = {1: even(20.0, 10.0), 2: even(0.0, 10.0)}
-    assert goes_on(2, motions, (LANE,), 5.0, WANTED) is motions[2]
-    assert goes_on(1, motions, (LANE,), 5.0, WANTED) is motions[1]
+    assert goes_on(2, motions, (LANE,), 5.0, WANTED, STRAIGHT) is motions[2]
+    assert goes_on(1, motions, (LANE,), 5.0, WANTED, STRAIGHT) is motions[1]
 
 
 def test_a_planner_lets_nobody_whose_plan_is_over_reach_the_one_ahead() -> None:

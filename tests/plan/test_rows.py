@@ -15,6 +15,7 @@ from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from stories import STORIES
 
 YIELDS, GAP, WAITS = STORIES["yields, distance"], STORIES["brakes at a rate"], STORIES["stops and goes"]
+FAINT = GAP.replace("A1a(dec) == -3", "A1a(dec) == -0.2").replace("A1v(t2) == 0", "A1v(t2) == 5")
 BOUNDED = YIELDS + "always[A1(t0), A1(t1)] (A1v <= 7)\nalways[A1(t1), A1(t2)] (A1a >= -4)\n"
 
 
@@ -58,7 +59,7 @@ def test_a_row_has_its_weight_and_what_is_unpleasant_counts_beyond_zero_only() -
     assert rows.most == [5.0, float("inf")]
 
 
-@pytest.mark.parametrize("text", [YIELDS, GAP, WAITS, BOUNDED])
+@pytest.mark.parametrize("text", [YIELDS, GAP, WAITS, BOUNDED, FAINT])
 def test_a_good_plan_breaks_no_bound_by_much(text: str) -> None:
     problem, z = planned(text)
     assert worst(problem, z) < 2.0

@@ -150,6 +150,9 @@ def test_a_profile_never_reverses_and_is_the_shot_where_that_does_not(
     for before, after in itertools.pairwise(profile.segments):
         assert after.start_s == pytest.approx(before.end_s, abs=1e-9)
         assert after.s_m == pytest.approx(before.end_s_m, abs=1e-9)
+        assert after.speed_mps == pytest.approx(before.end_speed_mps, abs=0.05), (
+            "no speed jumps, though one is to stand"
+        )
     for segment in profile.segments:
         inside = [segment.after(share * segment.duration_s)[1] for share in np.linspace(0.0, 1.0, 9)]
         assert min(inside) >= -1e-6

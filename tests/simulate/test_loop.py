@@ -209,6 +209,18 @@ def test_a_run_goes_on_until_what_is_told_by_the_clock(tmp_path: Path) -> None:
     assert result.status == "success"
 
 
+def test_a_run_goes_on_until_a_stretch_of_time_is_over_that_is_counted_from_a_moment() -> None:
+    """The hero stands and the ego has passed long before: nothing else keeps the run going."""
+    hero = "A1x(t1) == conflict_point - 25\nA1x(t2) == conflict_point - 5\nA1v(t2) == 0\n"
+    trigger = "A0(t1) == A1(t1)\nA0x(t1) == conflict_point - 30\nalways[A1(t2), A1(t2) + rests_s] (A1v <= 0.05)\n"
+    text = program("E, N", "t0, go, t1, dec, t2, stop, t3", trigger + hero)
+    result = orchestrate(Request(text, {"rests_s": 7}, ego="constant", takes=1))
+    assert result.status == "success"
+    assert result.run is not None
+    trace = result.run.trace.actors["hero"]
+    assert trace.time_s[trace.speed_mps <= 0.05][-1] - trace.time_s[trace.speed_mps > 0.05][-1] >= 6.9
+
+
 @pytest.mark.parametrize("at_s", [40, 95])
 def test_a_run_does_not_end_with_the_road_of_an_ego_that_nobody_waits_for(at_s: int) -> None:
     """What the clock tells comes as late as can be proven at all, wherever the ego is by then."""

@@ -17,6 +17,7 @@ from scenewright.study.benchmark import benchmark_row, draw_row
         (36, 0, 0, "staller"),
         (68, 1, 7, "noisy"),  # it was fast on its way, and its trigger comes later than planned, within its turn
         (28, 1, 34, "stop-and-go"),
+        (14, 0, 10100, "constant"),  # it brakes hard into its turn: between two nodes of its plan it was too fast
     ],
 )
 def test_lateral_acceleration_stays_within_its_limit(row: int, draw: int, draws_seed: int, ego: str) -> None:

@@ -27,6 +27,7 @@ def test_moves_as_the_witness_says(case: Example) -> None:
     for actor in scene.program.actors:
         trace, profile = run.trace.actors[actor.name], witness.profiles[actor.id]
         middle = (trace.time_s[:-1] + trace.time_s[1:]) / 2
+        middle = middle[middle <= witness.end_s]  # from then on it goes on as anybody does, slower in bends
         told = [profile.state(float(t))[0] for t in middle]
         assert np.allclose([trace.position(float(t)) for t in middle], told, atol=5e-3)
         assert run.trace.duration_s >= max(profile.knot_times_s.values()) - 1e-9

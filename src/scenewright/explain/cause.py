@@ -23,6 +23,7 @@ from scenewright.explain.in_way import hero_in_way
 from scenewright.judge.tolerance import Tolerance
 from scenewright.judge.verdict import Cause, CauseKind, Condition, Verdict
 from scenewright.plan.planner import GOOD
+from scenewright.program.expressions import Temporal, walk
 from scenewright.program.structure import Role, actors_of
 from scenewright.program.types import EGO, Actor, Constraint, Program
 from scenewright.simulate.loop import LONGEST_RUN_S, ROUTE_END_M, STANDS_MPS, Run
@@ -68,7 +69,10 @@ def cause_of(world: World, run: Run, verdict: Verdict, tolerance: Tolerance, pro
     knots_s = run.last_plan.profiles[hero.id].knot_times_s
     acted_s = knots_s.get(world.structure.trigger_knot(hero.id) or "", run.trace.duration_s)
     until_s = min(max(knots_s.values()) if later else acted_s, run.trace.duration_s)
-    good = last_good(run, until_s)
+    # What was to last and was broken no later plan mends, however good the rest of it is.
+    lasting = any(isinstance(node, Temporal) for each in failed for node in walk(each.formula))
+    worst = max((tick for tick in run.replans if tick.time_s < until_s), key=lambda tick: tick.tolerance, default=None)
+    good = last_good(run, worst.time_s if lasting and worst is not None and worst.tolerance > GOOD else until_s)
     otherwise = good and foreseen_otherwise(world, run, good, until_s, at_trigger=not later)
     # Where no plan ever did it, what stands against it may lie in what was to follow.
     to_s = until_s if good else min(max(knots_s.values()), run.trace.duration_s)

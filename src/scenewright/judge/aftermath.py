@@ -127,10 +127,11 @@ def _collisions(case: Case, pairs: Mapping[str, Mapping[str, Any]]) -> Iterator[
     for a, b in combinations(sorted(actor.id for actor in case.program.actors), 2):
         time_s = pairs[f"{case.name(a)}, {case.name(b)}"]["collision_time_s"]
         if time_s is not None:
-            yield _collision(case, a, b, time_s)
+            yield collision_at(case, a, b, time_s)
 
 
-def _collision(case: Case, a: int, b: int, time_s: float) -> Collision:
+def collision_at(case: Case, a: int, b: int, time_s: float) -> Collision:
+    """Return the collision of two actors whose boxes first overlap at an instant."""
     boxes = [moving_box(case.timelines[each].states, case.box(each), np.array([time_s])) for each in (a, b)]
     places = [np.array([box.x_m[0], box.y_m[0]]) for box in boxes]
     ways = [box.speed_mps[0] * np.array([np.cos(box.heading_rad[0]), np.sin(box.heading_rad[0])]) for box in boxes]

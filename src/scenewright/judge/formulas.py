@@ -127,6 +127,8 @@ def _temporal(case: Case, formula: Temporal, moments: Moments, negated: bool) ->
     lasting = (formula.operator != "eventually") != negated
     if end_s < start_s:  # at no instant: what holds always holds, what holds sometime does not
         return Leaf(0.0 if lasting else np.inf, None)
+    if lasting and np.isfinite(end_s) and end_s > case.end_s + TIGHT.time_s:
+        raise CannotJudge(f"the run ended {end_s - case.end_s:.2f} s before the stretch of time did")
     body_negated = (formula.operator == "never") != negated
 
     def body(time_s: FloatArray) -> Miss:

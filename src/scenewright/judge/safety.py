@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from scenewright.judge.aftermath import collision_at
 from scenewright.judge.boxes import closest_m, distances_m, moving_box, overlapping, times_to_collision_s
 from scenewright.judge.case import CannotJudge, Case
 from scenewright.judge.instants import first_crossing
@@ -37,7 +38,8 @@ def clear_conditions(case: Case, measured: Measured, came: frozenset[int], facts
     """Judge that the ego is clear of all up to the trigger and orchestrated actors of each other throughout.
 
     But for those whom the program puts into each other at a trigger. What "clear" means is in the program's manner.
-    Where the trigger of a hero is not among those that `came`, all of the run is before it.
+    Where the trigger of a hero is not among those that `came`, all of the run is before it. Where the program has none
+    at all, nobody waits for anything: that the ego drives into another is then what the test is for.
     """
     clear_m = float(case.program.manner.clear_m)
     room = f" (and is more than {clear_m:g} m from anybody)" if clear_m else ""
@@ -46,7 +48,9 @@ def clear_conditions(case: Case, measured: Measured, came: frozenset[int], facts
         times = (
             _first_near_s(case, a, b, clear_m, facts[f"{case.name(a)}, {case.name(b)}"]["collision_time_s"])
             for a, b in _pairs(case)
-            if (EGO in (a, b)) == of_ego and not _contact_is_asked_for(case, measured, a, b)
+            if (EGO in (a, b)) == of_ego
+            and not _contact_is_asked_for(case, measured, a, b)
+            and not (of_ego and not clear_m and _ego_drives_into(case, a, b, facts))
         )
         return min((time_s for time_s in times if time_s is not None), default=None)
 
@@ -56,6 +60,16 @@ def clear_conditions(case: Case, measured: Measured, came: frozenset[int], facts
         text = f"orchestrated actors do not collide with each other{room}"
         clear.append(_clear("heroes_apart", text, first_s(False), case.end_s))
     return clear
+
+
+def _ego_drives_into(case: Case, a: int, b: int, facts: dict[str, Any]) -> bool:
+    """Whether two collide, in a program without a trigger, because the ego drove into the other."""
+    hit_s = facts[f"{case.name(a)}, {case.name(b)}"]["collision_time_s"]
+    return (
+        not case.structure.triggers
+        and hit_s is not None
+        and collision_at(case, a, b, hit_s).actors[0] == case.name(EGO)
+    )
 
 
 def _first_near_s(case: Case, a: int, b: int, clear_m: float, collision_s: float | None) -> float | None:

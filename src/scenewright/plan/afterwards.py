@@ -1,14 +1,17 @@
-"""Whoever has nothing more to do holds its speed, and brakes where that is needed to keep clear of who goes first.
+"""Whoever has nothing more to do holds its speed, and brakes for bends and to keep clear of who goes first.
 
-What enters: motions that no plan changes any more, and meetings. What leaves: the same motion, or one that brakes from
-now on, as evenly and as little as keeps the room between the two.
+What enters: motions that no plan changes any more, meetings, and how fast bends may be driven. What leaves: the same
+motion, or one that brakes from now on, as evenly and as little as that takes.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 
+import numpy as np
+
 from scenewright.motion.profile import Profile, Segment
+from scenewright.plan.asked import Caps
 from scenewright.plan.pairs import Meeting, passes_s
 from scenewright.plan.preferences import Preferences
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
@@ -18,12 +21,18 @@ _LEAST_ROOM_M = 0.05  # who has no more room than this brakes at once, as if it 
 
 
 def goes_on(
-    hero: int, motions: Mapping[int, Profile], meetings: Sequence[Meeting], time_s: float, wanted: Preferences
+    hero: int,
+    motions: Mapping[int, Profile],
+    meetings: Sequence[Meeting],
+    time_s: float,
+    wanted: Preferences,
+    caps: Caps,
 ) -> Profile:
     """Return how a hero goes on: it begins to brake where later it would take more than what is comfortable."""
     motion = motions[hero]
-    _, speed_mps, accel = motion.state(time_s)
-    rate, change_mps = max(_needs(hero, motions, meetings, time_s, wanted), default=(0.0, 0.0))
+    s_m, speed_mps, accel = motion.state(time_s)
+    needs = [*_needs(hero, motions, meetings, time_s, wanted), *_bends(caps, s_m, speed_mps, wanted)]
+    rate, change_mps = max(needs, default=(0.0, 0.0))
     if accel == 0.0 and rate < wanted.accel_mpss:
         return motion
     driven = [s if s.end_s <= time_s else s.part(s.start_s, time_s) for s in motion.segments if s.start_s < time_s]
@@ -35,6 +44,16 @@ def goes_on(
         rate = max(rate, -accel)  # once begun it is not eased, so that it ends
         driven.append(Segment(time_s, change_mps / rate, last.end_s_m, speed_mps, -rate, last.piece))
     return Profile(tuple(driven), motion.knot_times_s)
+
+
+def _bends(caps: Caps, s_m: float, speed_mps: float, wanted: Preferences) -> Iterator[tuple[float, float]]:
+    """Yield at which even rates (m/s^2) it has to brake for bends, and by how much (m/s): harder only where it must."""
+    room_m = np.maximum(caps.places - s_m, _LEAST_ROOM_M)
+    for fastest, hardest_mpss in ((caps.comfortable, wanted.braking_mpss), (caps.most, BRAKE_MAX_MPSS)):
+        rates = np.where(caps.places >= s_m, 0.5 * (speed_mps**2 - fastest**2) / room_m, 0.0)
+        worst = int(np.argmax(rates))
+        if rates[worst] > 0.0:
+            yield min(float(rates[worst]), hardest_mpss), speed_mps - float(fastest[worst])
 
 
 def _needs(

@@ -71,7 +71,7 @@ class Asked:
         self._orders = [self._is_order(atom) for atom in atoms]
         self._quotients = list(self._quotients_of(atoms))
         self.caps = {
-            hero.id: _caps(scene.routes[hero.id], limits[hero.id], self.wanted.lateral_mpss)
+            hero.id: caps_of(scene.routes[hero.id], limits[hero.id], self.wanted.lateral_mpss)
             for hero in scene.program.heroes
         }
         landmarks = {hero.id: scene.routes[hero.id].landmarks for hero in scene.program.heroes}
@@ -171,7 +171,8 @@ class Caps:
         return (most[1], most[2] - most[0]), (comfortable[1], comfortable[2] - comfortable[0])
 
 
-def _caps(route: Route, limits: Limits, comfortable_mpss: float) -> Caps:
+def caps_of(route: Route, limits: Limits, comfortable_mpss: float) -> Caps:
+    """Return how fast a route may be driven, in comfort with so much sideways."""
     places = np.arange(0.0, route.path.length_m + _STEP_M, _STEP_M)
     bends = np.array([abs(route.path.curvature(float(s))) for s in places])
     around = round(_AROUND_M / _STEP_M)

@@ -309,14 +309,14 @@ class Planner:
         return record
 
     def _go_on(self, time_s: float) -> None:
-        """Let heroes whose plan is over keep clear of those that go first."""
-        if not self._meetings:
-            return
-        profiles = dict(self.plan.profiles)
+        """Let heroes whose plan is over brake for bends, and keep clear of those that go first."""
+        profiles, done = dict(self.plan.profiles), False
         for hero in self._heroes:
             if max(profiles[hero.id].knot_times_s.values()) + AFTER_LAST_S <= time_s:
-                profiles[hero.id] = goes_on(hero.id, profiles, self._meetings, time_s, self._asked.wanted)
-        self.plan = replace(self.plan, profiles=profiles)
+                caps, done = self._asked.caps[hero.id], True
+                profiles[hero.id] = goes_on(hero.id, profiles, self._meetings, time_s, self._asked.wanted, caps)
+        if done:
+            self.plan = replace(self.plan, profiles=profiles)
 
     def _situation(self, time_s: float, prediction: Profile) -> tuple[Situation, float]:
         """Return what to plan from now, and by how much triggers have moved of which the ego decides (s)."""

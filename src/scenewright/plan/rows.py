@@ -137,20 +137,29 @@ class HeroRows:
                     usual = min(max(usual, float(narrowing.law.rate_low)), float(narrowing.law.rate_high))
         return usual
 
+    def _faint(self, number: int) -> float:
+        """Return how faintly a leg is begun, as a share of what is usual: one at 0.2 m/s^2 does not begin harder."""
+        return min(1.0, abs(self._usual_rate(number)) / self.asked.wanted.beginning_mpss)
+
     # -- limits -------------------------------------------------------------------------------------------------------
     def _limits(self) -> None:
         """Add what no motion exceeds: nobody drives backwards, or faster than road and bends allow."""
         wanted, caps, limits = self.asked.wanted, self.asked.caps[self.hero.id], self.asked.limits[self.hero.id]
-        number = self._trigger_leg()
-        acts = len(self.shot.s) if number is None else self.shot.first_node[number]
-        onto = np.arange(1, len(self.shot.s)) > acts  # on its way to whatever road comes next
+        number, shot = self._trigger_leg(), self.shot
+        acts = len(shot.s) if number is None else shot.first_node[number]
+        onto = np.arange(1, len(shot.s)) > acts  # on its way to whatever road comes next
         natural = np.where(onto, limits.natural_speed_mps, limits.natural_approach_speed_mps)
-        (most, slope), (comfortable, other) = caps.at(self.shot.s)
-        v, d_s, d_v = self.shot.v[1:], self.shot.d_s[1:], self.shot.d_v[1:]
+        # Who brakes into a bend is midway between two nodes faster than the second of them alone allows there.
+        s, v, d_s, d_v = (0.5 * (each[1:] + each[:-1]) for each in (shot.s, shot.v, shot.d_s, shot.d_v))
+        most, slope = caps.at(s)[0]
+        bends = most < max(caps.most)
+        self.bounds.add_all((v - most)[bends], (d_v - slope[:, None] * d_s)[bends], FIRM * wanted.price)
+        (most, slope), (comfortable, other) = caps.at(shot.s)
+        v, d_s, d_v = shot.v[1:], shot.d_s[1:], shot.d_v[1:]
         self.bounds.add_all(-v, -d_v, FIRM * wanted.price)
         # Its last knot is on its road, unless the program asks for one at its end.
         end_m = self.asked.scene.routes[self.hero.id].landmarks["route_end"] - VEHICLE_LENGTH_M
-        s_m, _, d_s_m, _ = self.shot.at_node(self.shot.first_node[-2])
+        s_m, _, d_s_m, _ = shot.at_node(shot.first_node[-2])
         self.bounds.add(s_m - end_m, d_s_m, wanted.price / _TIGHT_LENGTH, wanted.out_of_way_most)
         self.bounds.add_all(v - most[1:], d_v - slope[1:, None] * d_s, FIRM * wanted.price)
         self.costs.beyond(v - comfortable[1:], d_v - other[1:, None] * d_s, wanted.lateral_weight)
@@ -167,8 +176,9 @@ class HeroRows:
             if self._sets_off(number):
                 self._begins(number, 1.0)
             sense = _SENSE.get(leg.kind, 0.0)
+            least_mpss = self._faint(number) * self.asked.wanted.least_rate_mpss
             for accel in leg.accels if sense else ():
-                short = self.asked.wanted.least_rate_mpss - sense * float(self.shot.z[accel])
+                short = least_mpss - sense * float(self.shot.z[accel])
                 # Braking that pauses is seen to begin anew; who has sped up may well go on evenly.
                 pauses = price if leg.kind is PieceKind.DEC else self.asked.wanted.least_rate_price
                 self.bounds.add(short, self._unit((accel, -sense)), pauses)
@@ -210,22 +220,24 @@ class HeroRows:
         if sense is None:
             return
         self._begins(number, sense)
+        settled_mpss, early_mpss = (self._faint(number) * mpss for mpss in (wanted.settled_mpss, wanted.early_mpss))
         settled_s = shot.time[node] - wanted.settled_s - _ROUNDING_S
         for before, leg in enumerate(shot.legs[:number]):
             for k, accel in enumerate(leg.accels if leg.kind is PieceKind.GO else ()):
                 pull, slope = sense * float(shot.z[accel]), self._unit((accel, sense))
                 if shot.time[shot.first_node[before] + k] > settled_s:
-                    self.bounds.add(pull - wanted.settled_mpss, slope, rate)
+                    self.bounds.add(pull - settled_mpss, slope, rate)
                 else:  # what is to begin at the trigger is not plainly done before it
-                    self.bounds.add(pull - wanted.early_mpss, slope, wanted.early_price)
+                    self.bounds.add(pull - early_mpss, slope, wanted.early_price)
 
     def _begins(self, number: int, sense: float) -> None:
         """Add that a leg is visibly begun: by speeding up (1) or slowing down (-1) from its first moment on."""
         wanted, shot, node = self.asked.wanted, self.shot, self.shot.first_node[number]
         lasts = max(float(shot.time[node + 1] - shot.time[node]), 1e-3)
+        visible_mpss = self._faint(number) * wanted.beginning_mpss
         for k, accel in enumerate(shot.legs[number].accels):
             if (k - 1) * lasts < wanted.beginning_s:
-                short = wanted.beginning_mpss - sense * float(shot.z[accel])
+                short = visible_mpss - sense * float(shot.z[accel])
                 self.bounds.add(short, self._unit((accel, -sense)), wanted.price / _TIGHT_RATE)
 
     def _sets_off(self, number: int) -> bool:

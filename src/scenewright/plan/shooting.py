@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from scenewright.motion.profile import Profile, Segment
 from scenewright.program.types import PieceKind
+from scenewright.solve.limits import BRAKE_MAX_MPSS
 
 Array = NDArray[np.float64]
 
@@ -222,8 +223,10 @@ def profile_of(shot: Shot, knots_s: dict[str, float], past: Sequence[Segment]) -
             if lasts <= 1e-9:
                 continue
             begin, a, b = float(shot.time[node]), float(shot.accel[node]), float(shot.accel_after[node])
-            if not leg.accels:
+            if not leg.accels and v <= _HARDLY_MPS:
                 v = 0.0
+            elif not leg.accels:  # it is not yet slow enough, and nobody stands from one moment to the next
+                a = b = -BRAKE_MAX_MPSS
             for segment in _forwards(begin, lasts, s, v, a, b, leg.piece):
                 segments.append(segment)
                 s, v = segment.end_s_m, segment.end_speed_mps
@@ -240,10 +243,12 @@ def _forwards(begin_s: float, lasts_s: float, s_m: float, v: float, a: float, b:
         lowest = min(lowest, v - 0.5 * a * a * lasts_s / (b - a))
     if lowest >= -1e-9:
         return [segment]
-    low, high = 0.0, lasts_s
-    for _ in range(40):
-        middle = 0.5 * (low + high)
-        falling = all(segment.after(share * middle)[1] >= 0.0 for share in (0.25, 0.5, 0.75, 1.0))
-        low, high = (middle, high) if falling else (low, middle)
-    stopped = segment.part(begin_s, begin_s + low)
-    return [stopped, Segment(begin_s + low, lasts_s - low, stopped.end_s_m, 0.0, 0.0, piece)]
+    # Between the two instants at which its speed would be zero it stands; behind the second it drives on as it would.
+    root = max(0.0, a * a - 2.0 * segment.jerk_mpsss * v) ** 0.5
+    stops_s = -(a + root) / segment.jerk_mpsss if a > 0.0 else 2.0 * v / max(root - a, 1e-12)
+    goes_s = min((root - a) / segment.jerk_mpsss, lasts_s) if segment.jerk_mpsss > 0.0 else lasts_s
+    stopped = segment.part(begin_s, begin_s + stops_s)
+    stands = Segment(begin_s + stops_s, goes_s - stops_s, stopped.end_s_m, 0.0, 0.0, piece)
+    rate = a + segment.jerk_mpsss * goes_s
+    goes = Segment(begin_s + goes_s, lasts_s - goes_s, stopped.end_s_m, 0.0, rate, piece, segment.jerk_mpsss)
+    return [each for each in (stopped, stands, goes) if each.duration_s > 0.0]

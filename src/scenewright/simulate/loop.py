@@ -9,17 +9,19 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from math import hypot
+from math import hypot, isfinite
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from scenewright.errors import PolicyError, ScenewrightError, SimulatorError
 from scenewright.program import expressions as ex
+from scenewright.program.evaluate import term_value
 from scenewright.program.structure import actors_of, knots_of, read_structure
 from scenewright.program.types import EGO, Program
 from scenewright.roads.grounding import Scene
 from scenewright.simulate.port import SIMULATORS, Simulator, Snapshot, Start
+from scenewright.solve.plan import PlanWorld
 from scenewright.solve.proofs.events import LONGEST_S
 from scenewright.trace.model import ActorTrace, Trace
 
@@ -39,7 +41,7 @@ _STALLED_S, STANDS_MPS = 20.0, 0.1
 _MOVES_MPS = 0.5
 ROUTE_END_M = 3.0  # who is so near to the end of its road has come to it
 _NOTED_M = 0.01  # what a finding with two decimals can say
-_Told = tuple[float, Mapping[int, str]]  # the latest time that the clock tells (s); whose trigger speaks of the ego
+_Told = tuple[float, Mapping[int, str]]  # the latest time that a program tells (s); whose trigger speaks of the ego
 _DRIVES_EGO = "The simulator drove the ego by itself; the policy of --ego only told how it would start."
 
 
@@ -88,7 +90,8 @@ def simulate(
     scene, first_plan, log = start.scene, heroes.plan, list[Snapshot]()
     steps_a_tick = max(1, round(rates.replan_s / rates.step_s)) if rates.replan_s else 0
     status, fault, step, astray_m, ego_moved_s = "finished", None, 0, 0.0, 0.0
-    told = _told_by_the_clock_s(scene.program), _meets_ego(scene.program)
+    values = {name: float(value) for name, value in scene.parameters.items()}
+    told, meets = _told_s(scene.program), _meets_ego(scene.program)
     with SIMULATORS.blamed(simulator):
         simulator.reset(start, rates.step_s)
         now = simulator.observe()
@@ -106,7 +109,9 @@ def simulate(
             for hero, motion in motions.items():
                 there = now.actors[hero]
                 astray_m = max(astray_m, hypot(there.s_m - motion.state(now.time_s)[0], there.d_m))
-            if _is_over(scene, motions, now, told, ego_moved_s):
+            world = PlanWorld(scene, heroes.plan.profiles, values)
+            told_s = max((at_s for time in told if isfinite(at_s := term_value(time, world))), default=0.0)
+            if _is_over(scene, motions, now, (told_s, meets), ego_moved_s):
                 break
             with SIMULATORS.blamed(simulator):
                 simulator.step()
@@ -141,12 +146,12 @@ def _trace(scene: Scene, log: Sequence[Snapshot]) -> Trace:
     return Trace(actors)
 
 
-def _told_by_the_clock_s(program: Program) -> float:
-    """Return the latest time that a program tells by the clock (s), if it tells any."""
+def _told_s(program: Program) -> list[ex.Term]:
+    """Return the times that a program tells by the clock, or as so long after a moment."""
     nodes = [node for constraint in program.constraints for node in ex.walk(constraint.formula)]
     told: list[object] = [node.at for node in nodes if isinstance(node, ex.State | ex.Derived)]
     told += [edge for node in nodes if isinstance(node, ex.Temporal) for edge in (node.start, node.end)]
-    return max((float(time.value) for time in told if isinstance(time, ex.Number)), default=0.0)
+    return [time for time in told if isinstance(time, ex.Number | ex.Arithmetic)]
 
 
 def _is_over(scene: Scene, motions: Mapping[int, Profile], now: Snapshot, told: _Told, ego_moved_s: float) -> bool:

@@ -6,14 +6,16 @@ took part in it, and nothing was solved again.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from itertools import combinations
 
 import numpy as np
 
-from scenewright.motion.profile import Profile, Segment
+from scenewright.motion.profile import Profile
+from scenewright.plan.afterwards import goes_on
+from scenewright.plan.asked import caps_of
 from scenewright.plan.pairs import passes_s
+from scenewright.plan.preferences import Preferences
 from scenewright.roads.bodies import CAR
 from scenewright.roads.grounding import Scene
 from scenewright.roads.routes import Route
@@ -25,17 +27,18 @@ from scenewright.solve.proofs.witness import Witness
 from scenewright.trace.model import ActorTrace, FloatArray, Trace
 
 _AFTERWARDS_S = 2.0  # what follows the last moment that matters, to be looked at
-_ON_STEP_S, _ON_STEP_M, _ON_BRAKE_MPSS = 0.1, 0.5, 3.0
+_ON_STEP_S = 0.1
 
 
 def run_of_witness(scene: Scene, limits: Mapping[int, Limits], witness: Witness) -> Run:
     """Return a run in which everybody, the ego too, moves as in `witness`, until a little after its last moment."""
     until_s = max(witness.end_s + _AFTERWARDS_S, 2 * DEFAULT_STEP_S)
     profiles = dict(witness.profiles)
+    ends_s = []
     for hero in scene.program.heroes:
-        profiles[hero.id] = _driven_on(scene.routes[hero.id], profiles[hero.id], limits[hero.id], until_s)
-    ends_s = [passes_s(motion, scene.routes[actor].landmarks["route_end"]) for actor, motion in profiles.items()]
-    ends_s += [profiles[hero.id].end_s for hero in scene.program.heroes]
+        profiles[hero.id], end_s = _driven_on(scene.routes[hero.id], profiles[hero.id], limits[hero.id], until_s)
+        ends_s.append(end_s)
+    ends_s += [passes_s(motion, scene.routes[actor].landmarks["route_end"]) for actor, motion in profiles.items()]
     until_s = _apart_until(scene, profiles, witness.end_s, max(min(until_s, *ends_s), witness.end_s))
     time_s = DEFAULT_STEP_S * np.arange(int(np.ceil(until_s / DEFAULT_STEP_S - 1e-9)) + 1, dtype=np.float64)
     actors = {actor.name: _trace(scene.routes[actor.id], profiles[actor.id], time_s) for actor in scene.program.actors}
@@ -44,27 +47,16 @@ def run_of_witness(scene: Scene, limits: Mapping[int, Limits], witness: Witness)
     return Run(Trace(actors), plan, plan, [], "finished", ego_knots_s=knots_s)
 
 
-def _driven_on(route: Route, profile: Profile, limits: Limits, until_s: float) -> Profile:
-    """Return a profile that goes on after its last moment at the speed that it has, or slower where the road bends.
+def _driven_on(route: Route, motion: Profile, limits: Limits, until_s: float) -> tuple[Profile, float]:
+    """Return a motion that goes on after its last moment as any hero does then, and until when.
 
-    It ends where that would take more than it can.
+    It ends where it would be too fast for a bend that comes too soon.
     """
-    last, end_m = profile.segments[-1], route.path.length_m
-    places = np.arange(last.end_s_m, max(end_m, last.end_s_m + 1.0), _ON_STEP_M)
-    bends = np.array([abs(route.path.curvature(float(s))) for s in np.minimum(places, end_m)])
-    squared = 0.98 * limits.lateral_max_mpss / np.maximum(bends, 1e-6)
-    braking = 2.0 * _ON_BRAKE_MPSS * places
-    squared = np.minimum.accumulate((squared + braking)[::-1])[::-1] - braking  # what can be braked down from in time
-    segments, now, place, speed = list(profile.segments), profile.end_s, last.end_s_m, last.end_speed_mps
-    while now < until_s:
-        admitted = math.sqrt(float(np.interp(place + speed * _ON_STEP_S, places, squared)))
-        rate = max(min(0.0, (admitted - speed) / _ON_STEP_S), -speed / _ON_STEP_S)
-        if rate < -limits.brake_max_mpss:
-            break
-        segments.append(Segment(now, _ON_STEP_S, place, speed, rate, segments[-1].piece))
-        now, place = now + _ON_STEP_S, place + (speed + 0.5 * rate * _ON_STEP_S) * _ON_STEP_S
-        speed += rate * _ON_STEP_S
-    return Profile(tuple(segments), profile.knot_times_s)
+    now, wanted = motion.end_s, Preferences()
+    caps = caps_of(route, limits, wanted.lateral_mpss)
+    while now < until_s and motion.state(now)[1] <= np.interp(motion.state(now)[0], caps.places, caps.most):
+        motion, now = goes_on(0, {0: motion}, (), now, wanted, caps), now + _ON_STEP_S
+    return motion, now
 
 
 def _apart_until(scene: Scene, profiles: Mapping[int, Profile], from_s: float, until_s: float) -> float:
