@@ -167,7 +167,7 @@ def test_gives_up_with_what_the_planner_cannot_hold(command: Command, tmp_path: 
 
 
 def test_gives_up_where_the_smt_planner_finds_nothing(command: Command, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("scenewright.plan.smt.MOST_WORK", 1)
+    monkeypatch.setattr("scenewright.plan.smt.WORK_PER_S", 1)
     result = command("run", SENTENCE, "--planner", "smt")
     assert result.exit_code == 4
     assert "Nothing was driven: the SMT planner found no first plan" in result.stderr

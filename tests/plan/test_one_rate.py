@@ -29,7 +29,7 @@ def motions_of(case: Example, ego: EgoBounds | None = None) -> OneRate:
 
 
 def asked(question: Question) -> Answer:
-    return Z3(5_000_000).ask(question.unknowns, question.formulas, 10.0)
+    return Z3(500_000).ask(question.unknowns, question.formulas, 10.0)
 
 
 def first_of(motions: OneRate, case: Example) -> tuple[Question, list[float], dict[int, Profile]]:

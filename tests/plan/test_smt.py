@@ -41,7 +41,7 @@ def test_a_sentence_is_driven_as_described_and_again_to_the_byte(tmp_path: Path)
 
 
 def test_no_first_plan_is_an_answer_with_a_reason(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(smt, "MOST_WORK", 1)
+    monkeypatch.setattr(smt, "WORK_PER_S", 1)
     result = driven()
     assert (result.status, result.run, result.attempt) == ("gave up", None, None)
     assert "z3 gave up" in result.no_plan

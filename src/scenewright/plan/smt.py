@@ -31,10 +31,9 @@ from scenewright.translate.lines import told_constraints
 # By how many tight tolerances reactive constraints give way in turn: the paper has "various" and names none; 4 is the
 # loose tolerance of places and speeds.
 TOLERANCES = tuple(map(Fraction, (0, 1, 2, 4)))
-# The paper's limit for a question (s); and one in z3's own count of its work, which is the same however busy the
-# machine is, and comes first on one that is up to three times slower: here z3 counts 1.5 million in a second. The
-# longest question of rows 1, 4, 20 and 60 against `idm` took 0.76 million.
-LIMIT_S, MOST_WORK = 10.0, 5_000_000
+# The paper's limit for a question (s), in z3's own count of its work: here it counts 1.5 million in a second of these
+# questions, and the longest of rows 1, 4, 20 and 60 against `idm` took 0.76 million.
+LIMIT_S, WORK_PER_S = 10.0, 500_000
 _EVEN_FIRST = (True, False)
 
 
@@ -61,7 +60,7 @@ class SmtPlanner:
     _moments_s: dict[int, float] = field(init=False, default_factory=dict)
 
     def __post_init__(self) -> None:
-        self._motions, self._solver = OneRate(self.scene, self.limits, self.ego), Z3(MOST_WORK)
+        self._motions, self._solver = OneRate(self.scene, self.limits, self.ego), Z3(WORK_PER_S)
 
     @property
     def refused(self) -> str:

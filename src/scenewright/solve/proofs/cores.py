@@ -5,18 +5,17 @@ What enters: things that clash together, and a way to ask whether some of them s
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Sequence
 from typing import TypeVar
 
 Item = TypeVar("Item")
 
 
-def needed(items: Sequence[Item], clash: Callable[[list[Item]], bool], until: float) -> list[Item]:
-    """Return what of `items` is needed for a clash; after `until` (s, monotonic) all that was not found superfluous."""
+def needed(items: Sequence[Item], clash: Callable[[list[Item]], bool]) -> list[Item]:
+    """Return what of `items` is needed for a clash: all but what is found superfluous."""
     kept = list(items)
     for item in items:
         fewer = [other for other in kept if other is not item]
-        if time.monotonic() < until and clash(fewer):
+        if clash(fewer):
             kept = fewer
     return kept

@@ -7,10 +7,8 @@ heroes must all pass it within a time that is shorter than they cover it one aft
 
 from __future__ import annotations
 
-import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,6 +27,7 @@ from scenewright.solve.proofs.polynomials import Named
 from scenewright.units import pin
 
 Array = NDArray[np.float64]
+Meeting = tuple[Sequence[int], Collection[int]]  # who is told to be where at one trigger, and the moments that it is
 Point = Mapping[int, float]  # one place of the map, as the arc length on the way of each hero that passes it
 
 # A car covers a place from so far before it on; a little less than half its length, for lanes bend.
@@ -42,18 +41,22 @@ def crowded(events: Events, lowered: Sequence[Named]) -> tuple[str, ...]:
 
     Heroes that the program wants in each other are not counted.
     """
-    facts = _Facts.of(events, lowered)
+    program = events.scene.program
+    triggers = dict.fromkeys(read_structure(program).triggers.values())
+    placed = {instant: placed_at(program, instant) - {EGO} for instant in triggers}
+    meetings = [(sorted(heroes), {events.knot(*key) for key in at}) for at, heroes in placed.items() if len(heroes) > 1]
+    facts = _Facts.of(events, lowered, meetings)
     for point in _points(events.scene, facts):
         crowd = facts.crowd(point)
         if len(crowd) > 1:
             there = {hero: point[hero] for hero in crowd}
 
             def clash(fewer: list[Named], there: Point = there, count: int = len(crowd)) -> bool:
-                return len(_Facts.of(events, fewer).crowd(there)) == count
+                return len(_Facts.of(events, fewer, meetings).crowd(there)) == count
 
-            kept = needed(lowered, clash, math.inf)
+            kept = needed(lowered, clash)
             told = [each.origin for each in kept]
-            return (*dict.fromkeys([*told, *_ties(events.scene.program, told, crowd)]), APART)
+            return (*dict.fromkeys([*told, *_ties(program, told, crowd)]), APART)
     return ()
 
 
@@ -67,26 +70,36 @@ def _ties(program: Program, told: Collection[str], crowd: Sequence[int]) -> list
 
 @dataclass(slots=True)
 class _Facts:
-    """What constraints say of single places, and of how much later one moment is at least than another."""
+    """What constraints say of single places, and of how much later one moment is at least than another.
+
+    And who may touch another: the judge lets contact pass that a trigger asks for.
+    """
 
     events: Events
     least: Array
     most_m: Mapping[tuple[int, int], float]
     least_m: Mapping[tuple[int, int], float]
+    touching: set[int]
 
     @classmethod
-    def of(cls, events: Events, lowered: Sequence[Named]) -> _Facts:
+    def of(cls, events: Events, lowered: Sequence[Named], meetings: Sequence[Meeting]) -> _Facts:
         """Gather the facts of some constraints."""
         formulas = [each.formula for each in lowered]
         within = places_within(events, formulas).items()
         ends = {hero: events.scene.routes[hero].landmarks["route_end"] for hero in events.scene.routes}
         most_m = {key: float(high) for key, (_, high) in within if high < pin(ends[key[0]])}
         least_m = {key: float(low) for key, (low, _) in within if low > 0}
-        return cls(events, least_differences(events, formulas), most_m, least_m)
+        found = cls(events, least_differences(events, formulas), most_m, least_m, set())
+        found.touching.update(*(found._touching(*meeting) for meeting in meetings))
+        return found
 
     def crowd(self, point: Point) -> tuple[int, ...]:
         """Return heroes that cannot all pass a point in the time that they have for it."""
-        jobs = [(hero, *window) for hero in self._apart(point) if (window := self._window(hero, point[hero]))]
+        jobs = [
+            (hero, *window)
+            for hero in sorted(set(point) - self.touching)
+            if (window := self._window(hero, point[hero]))
+        ]
         if len(jobs) < 2:
             return ()
         early, late = np.array([job[1] for job in jobs]), np.array([job[2] for job in jobs])  # (heroes, moments)
@@ -120,25 +133,16 @@ class _Facts:
             return None
         return np.max(before, axis=0), np.min(after, axis=0), 2.0 * _HALF_M / fastest
 
-    def _apart(self, point: Point) -> Iterator[int]:
-        """Yield who passes a point and may not touch any other: the judge lets contact pass that a trigger asks for."""
-        program = self.events.scene.program
-        touching = set[int]()
-        for instant in read_structure(program).triggers.values():
-            for a, b in combinations(sorted(placed_at(program, instant) - {EGO}), 2):
-                if not self._told_apart(a, b, {self.events.knot(*key) for key in instant}):
-                    touching |= {a, b}
-        yield from set(point) - touching
-
-    def _told_apart(self, a: int, b: int, moments: Collection[int]) -> bool:
-        """Whether two are told to be at places at one of the moments at which they are clear of each other."""
-        paths = [self.events.scene.routes[hero].path for hero in (a, b)]
+    def _touching(self, heroes: Sequence[int], moments: Collection[int]) -> set[int]:
+        """Return who of a meeting is not told to be, at one of its moments, where it is clear of each other one."""
+        clear = np.eye(len(heroes), dtype=bool)
         for k in moments:
-            places = [self.most_m.get((hero, k), np.inf) for hero in (a, b)]
-            if all(self.least_m.get((hero, k)) == at_m for hero, at_m in zip((a, b), places, strict=True)):
-                one, other = (path.poses(np.array([at_m])) for path, at_m in zip(paths, places, strict=True))
-                return not overlap(one, other, _ROOMY, _ROOMY).any()
-        return False
+            places = np.array([self.most_m.get((hero, k), np.nan) for hero in heroes])
+            told = places == [self.least_m.get((hero, k), np.inf) for hero in heroes]
+            paths = [self.events.scene.routes[hero].path for hero in heroes]
+            poses = np.array([path.poses(np.array([at_m]))[0] for path, at_m in zip(paths, places, strict=True)])
+            clear |= told[:, None] & told & ~overlap(poses[:, None], poses[None], _ROOMY, _ROOMY)
+        return {hero for hero, each in zip(heroes, clear, strict=True) if not each.all()}
 
 
 def _points(scene: Scene, facts: _Facts) -> Iterator[Point]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 import subprocess
 import sys
+import time
 from collections.abc import Sequence
 
 from scenewright.errors import SolverError
@@ -42,14 +43,17 @@ class Cvc5:
             smtlib(ranges, formulas, named=want_core),
             "(check-sat)",
         ]
+        started = time.perf_counter()
         said = _said("\n".join(lines + ["(get-unsat-core)"] * want_core), timeout_s + _START_S)
+        took_s = time.perf_counter() - started
         if said is None:
-            return Answer("timeout")
+            return Answer("timeout", took_s=took_s)
         answer, _, rest = said.partition("\n")
         if answer == "unsat":
             numbers = map(int, _NAME.findall(rest))
-            return Answer("refuted", core=tuple({origin for n in numbers for origin in formulas[n].origins}))
-        return Answer("met" if answer == "sat" else "unknown")
+            core = tuple({origin for n in numbers for origin in formulas[n].origins})
+            return Answer("refuted", core=core, took_s=took_s)
+        return Answer("met" if answer == "sat" else "unknown", took_s=took_s)
 
 
 def _said(text: str, limit_s: float) -> str | None:

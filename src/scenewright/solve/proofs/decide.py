@@ -7,7 +7,6 @@ found is realised and looked at by an evaluator of its own before it is called f
 
 from __future__ import annotations
 
-import time
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
@@ -38,6 +37,8 @@ Array = NDArray[np.float64]
 _ROUNDS = 14  # how often one motion is mended before another is looked for
 _GUESSES = (4, 12, 1000)  # how many first guesses are tried before each time that a proof is looked for
 _PROOF_S = (0.15, 0.4, 0.1)
+# How much a search does in what is called a second here. No clock is asked: answers are the same on any machine.
+_WORK_PER_S = 4_000_000
 _CORE_S = 2.0  # for looking for what clashes among constraints, and then among laws: as long as for the answer
 _SHRINK_S = 0.5  # for each question whether a core does without one of its members
 _RANGES = {
@@ -141,17 +142,16 @@ class _Case:
 
 
 def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> Decision:
-    """Look for a witness and for a proof in turn until there is one of them, or the time is over.
+    """Look for a witness and for a proof in turn until there is one of them, or enough has been done.
 
     Open parameters are free within their ranges. With `explain` a proof comes with its core. Against one drive of the
     ego only a proof is looked for: what might have been is nobody's plan.
     """
-    until = time.monotonic() + limit_s
     plain = _Case(question)
     left_out = {each.origin: each.refused for each in plain.lowered if each.refused}
     if question.drive is None and (clashing := crowded(plain.events, plain.lowered)):
         return Decision("infeasible", core=clashing, left_out=left_out)
-    hunt, asked, case = _Hunt(question, until), question, plain
+    hunt, asked, case = _Hunt(question, int(limit_s * _WORK_PER_S)), question, plain
     posed: tuple[Sequence[Unknown], Sequence[Named]] | None = None  # most witnesses need none
     for guesses, proof_s in zip(_GUESSES, _PROOF_S, strict=True):
         if not left_out and question.drive is None and (found := hunt.witness(guesses)) is not None:
@@ -162,7 +162,7 @@ def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> De
             case, posed = _Case(asked), None
         posed = posed or (case.events.unknowns, case.relaxation())
         refuter = question.refuter
-        if refuter.ask(*posed, min(proof_s, until - time.monotonic())).kind == "refuted":
+        if refuter.ask(*posed, min(proof_s, limit_s)).kind == "refuted":
             if not refuter.capabilities.exact:
                 return Decision("undecided", left_out=left_out, amiss=hunt.amiss, doubted_by=refuter.name)
             return Decision("infeasible", core=_core(asked, *posed) if explain else (), left_out=left_out)
@@ -171,10 +171,13 @@ def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> De
 
 @dataclass(slots=True)
 class _Hunt:
-    """Looks for a witness from one guess after another: `tried` so many so far; `amiss` is what was with the last."""
+    """Looks for a witness from one guess after another, as long as there is work `left`.
+
+    It `tried` so many so far; `amiss` is what was with the last.
+    """
 
     question: Question
-    until: float
+    left: int
     tried: int = 0
     amiss: tuple[Broken, ...] = ()
     generator: np.random.Generator = field(default_factory=lambda: np.random.default_rng(0))
@@ -182,7 +185,7 @@ class _Hunt:
     def witness(self, guesses: int) -> Witness | None:
         """Return a witness, at first only one in the program's manner; None where so many guesses find none."""
         last = self.tried + guesses
-        while self.tried < last and time.monotonic() < self.until:
+        while self.tried < last and self.left > 0:
             found = self._mended(_Case(self.question, plan=True, plain=self.tried < _PLAIN))
             self.tried += 1
             if found is not None:
@@ -197,6 +200,7 @@ class _Hunt:
             search = case.search()
             guess = np.append(guess, np.zeros(len(case.events.unknowns) - len(guess)))  # rates at new moments
             point = search.run(guess, generator)
+            self.left -= search.work
             if point is None:
                 return None
             witness = realised(case.events, search, point)
@@ -204,7 +208,7 @@ class _Hunt:
             self.amiss = tuple(broken(asked.scene, asked.structure, asked.limits, asked.ego, witness))
             if not self.amiss:
                 return witness
-            if time.monotonic() > self.until or not case.more.mend(self.amiss, witness):
+            if self.left <= 0 or not case.more.mend(self.amiss, witness):
                 return None
             case.lower()
             guess = carried_over(case.events, point, witness)
@@ -217,27 +221,33 @@ def _core(question: Question, unknowns: Sequence[Unknown], formulas: Sequence[Na
     Formulas are made with what all constraints say of the order of moments, and of who is who's moment: whether some
     of them clash is asked about these alone.
     """
-    refuter, until = question.refuter, time.monotonic() + _CORE_S
+    refuter, left_s = question.refuter, _CORE_S
     told, first = [constraint.id for constraint in question.constraints()], set[str]()
     if refuter.capabilities.cores:
         first = set(refuter.ask(unknowns, formulas, 1.0, want_core=True).core)
     named = [name for name in told if name in first]
 
+    def refuted(unknowns: Sequence[Unknown], formulas: Sequence[Named]) -> bool:
+        nonlocal left_s
+        answer = refuter.ask(unknowns, formulas, _SHRINK_S)
+        left_s -= answer.took_s
+        return answer.kind == "refuted"
+
     def clash(names: list[str]) -> bool:
-        return _refuted(refuter, *_posed(question, names))
+        return left_s > 0.0 and refuted(*_posed(question, names))
 
     if clash(named):
-        kept = needed(named, clash, until)
+        kept = needed(named, clash)
         unknowns, formulas = _posed(question, kept)
     else:
         kept = told
     origins = dict.fromkeys(origin for each in formulas for origin in each.origins if origin not in kept)
-    until = time.monotonic() + _CORE_S
+    left_s = _CORE_S
 
     def by_law(laws: list[str]) -> bool:
-        return _refuted(refuter, unknowns, resting_on(formulas, (*kept, *laws)))
+        return left_s > 0.0 and refuted(unknowns, resting_on(formulas, (*kept, *laws)))
 
-    laws = needed(list(origins), by_law, until)
+    laws = needed(list(origins), by_law)
     clashing, ranges = resting_on(formulas, (*kept, *laws)), []
     for kind, words in _RANGES.items():
         wide = (replace(each, low=-_WIDER * each.high, high=_WIDER * each.high) for each in unknowns)
@@ -254,7 +264,3 @@ def _posed(question: Question, kept: Collection[str]) -> tuple[Sequence[Unknown]
     case = _Case(replace(question, scene=replace(question.scene, program=fewer)))
     formulas = case.relaxation()
     return case.events.unknowns, formulas
-
-
-def _refuted(refuter: Refuter, unknowns: Sequence[Unknown], formulas: Sequence[Named]) -> bool:
-    return refuter.ask(unknowns, formulas, _SHRINK_S).kind == "refuted"

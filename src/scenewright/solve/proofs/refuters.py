@@ -41,11 +41,14 @@ class Answer:
         Where refuted: origins of formulas that already clash, if the solver tells.
     values
         Where met: a value for every unknown, as near as a float comes, if the solver tells.
+    took_s
+        How long it took: by the solver's own count of its work if it has one.
     """
 
     kind: Literal["refuted", "met", "timeout", "unknown"]
     core: tuple[str, ...] = ()
     values: tuple[float, ...] = ()
+    took_s: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,5 +81,8 @@ class Refuter(Protocol):
     def ask(
         self, unknowns: Sequence[Unknown], formulas: Sequence[Named], timeout_s: float, want_core: bool = False
     ) -> Answer:
-        """Ask whether all `formulas` can hold at once; timeouts are answers, never exceptions."""
+        """Ask whether all `formulas` can hold at once; timeouts are answers, never exceptions.
+
+        What takes longer than `timeout_s` is given up: by a count of work, not by the clock, if the solver has one.
+        """
         ...

@@ -39,11 +39,13 @@ class Scip:
         posed.model.setParam("limits/time", max(0.001, timeout_s))
         posed.model.optimize()
         status = posed.model.getStatus()
+        took_s = posed.model.getSolvingTime()
         if posed.model.getNSols():
-            return Answer("met", values=tuple(float(posed.model.getVal(each)) for each in posed.variables))
+            values = tuple(float(posed.model.getVal(each)) for each in posed.variables)
+            return Answer("met", values=values, took_s=took_s)
         if status == "infeasible":
-            return Answer("refuted")
-        return Answer("timeout" if status == "timelimit" else "unknown")
+            return Answer("refuted", took_s=took_s)
+        return Answer("timeout" if status == "timelimit" else "unknown", took_s=took_s)
 
 
 class _Posed:

@@ -31,6 +31,9 @@ _SOFT = 1e-5
 _SOFT_ROW = 8  # how daqp is told that a row may be broken at a price
 _STRICT = 1e-3  # by how much a strict comparison is to hold, in units of its scaled row
 _MOST_STEPS = 40
+# What a step is counted as beside the square of the number of unknowns. Measured: 0.55, 0.8, 5.4 and 36 ms with 16, 45,
+# 157 and 398 unknowns.
+_A_STEP = 2000
 _CLEAR = 1e-4  # more than rounding
 _TRUST = 4.0
 
@@ -41,7 +44,7 @@ class Search:
     def __init__(self, events: Events, formulas: Sequence[Formula], narrowings: Sequence[Narrowing]) -> None:
         self.events = events
         self.formulas = formulas
-        self.steps = 0
+        self.steps, self.work = 0, 0
         least, narrower = least_differences(events, formulas), [*events.pieces, *narrowings]
         self._size = len(events.unknowns)
         self._compiled = Compiled(formulas, self._size)
@@ -68,7 +71,7 @@ class Search:
         point = np.append(np.clip(guess, self._low, self._high), 1.0)
         trust, best, stale = _TRUST, np.inf, 0
         for _ in range(_MOST_STEPS):
-            self.steps += 1
+            self.steps, self.work = self.steps + 1, self.work + _A_STEP + self._size**2
             rows, levels, equal = self._rows(point)
             worst = float(np.max(np.where(equal, np.abs(levels), levels), initial=0.0))
             if worst < DONE:
