@@ -33,6 +33,8 @@ from scenewright.solve.plan import Plan
 
 # Newton steps of a first plan and of a tick, and how many more a tick has for each second that a trigger has moved by.
 _FIRST_STEPS, _TICK_STEPS, _STEPS_A_SECOND, _MOST_STEPS_MORE = 40, 4, 12, 16
+# In a tick a step of several heroes counts for each of them; so many it has at least, and the next tick goes on.
+_LEAST_STEPS = 2
 # First plans are solved for from these speeds (shares of the natural one) and, where both decide, triggers (s): Newton
 # finds the nearest plan, not the best.
 _PACES, _JOINT_S = (0.8, 0.45, 0.25), (3.5, 6.0)
@@ -300,6 +302,7 @@ class Planner:
             situation, moved_s = self._situation(time_s, prediction)
             problem = Problem(self._asked, situation, self._meetings)
             steps = _TICK_STEPS + min(_MOST_STEPS_MORE, int(_STEPS_A_SECOND * moved_s))
+            steps = max(_LEAST_STEPS, steps // len(self.scene.program.heroes))
             solution = solve(problem, problem.guess, steps, _ENOUGH_TICK + self._enough)
             self._keep(self._made(problem, solution, prediction))
             foreseen = self.plan.profiles[EGO]

@@ -22,8 +22,9 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Matrix = sparse.csr_array
 
-# A step beyond what an unknown may be costs as if a bound so dear were broken: none is by more than rounding.
-_WALL = 1e5
+# A step beyond what an unknown may be costs as if a bound so dear were broken: at last none is by more than rounding.
+# Newton's steps stop at each wall: where walls are low at first, many are found at once, in half as many steps.
+_WALLS = 1e2, 1e5
 _SYMMETRIC: dict[str, Any] = {"diag_pivot_thresh": 0.0, "options": {"SymmetricMode": True}}
 _STANDS, _MOST_NEWTON_STEPS = 1e-9, 100
 
@@ -35,22 +36,25 @@ def sparse_step(problem: Problem, z: Array, costs: Rows, bounds: Rows, trusted: 
     beyond = levels - most  # what grows evenly from there on costs more than its square where it is softened
     softened = np.sqrt(np.minimum(1.0, most / np.maximum(levels, 1e-9)))
     low, high = (np.clip((bound - z) / longest, -trusted, trusted) for bound in (problem.low, problem.high))
-    slopes, rows = _matrix(costs, longest), _matrix(bounds, longest, softened, walls=True)
-    levels = np.concatenate([softened * levels, -_WALL * high, _WALL * low])
+    slopes, values, x = _matrix(costs, longest), np.array(costs.values), np.zeros(size)
     hessian = slopes.T @ slopes + DAMPING**2 * sparse.eye_array(size, format="csr")
-    values = np.array(costs.values)
-    x = np.clip(least(hessian, slopes.T @ values, rows, levels), low, high)
-    after, over = values + slopes @ x, np.maximum(levels + rows @ x, 0.0)
+    for wall in _WALLS:
+        rows = _matrix(bounds, longest, softened, wall)
+        x = least(hessian, slopes.T @ values, rows, np.concatenate([softened * levels, -wall * high, wall * low]), x)
+        if np.all((low <= x) & (x <= high)):
+            break
+    x = np.clip(x, low, high)
+    after, over = values + slopes @ x, np.maximum(softened * levels + (rows @ x)[: len(levels)], 0.0)
     evenly = 0.5 * float(np.sum(most * beyond, where=beyond > 0.0))
     return np.asarray(x * longest, dtype=np.float64), 0.5 * float(after @ after + over @ over) + evenly
 
 
-def least(hessian: Matrix, slope: Array, rows: Matrix, levels: Array) -> Array:
-    """Return where half a quadratic form, a slope and half the squares of what of rows is beyond zero are least.
+def least(hessian: Matrix, slope: Array, rows: Matrix, levels: Array, x: Array) -> Array:
+    """Return where half a quadratic form, a slope and half the squares of what of rows is beyond zero are least, from `x`.
 
     That is convex, and quadratic in parts: Newton's steps, each as long as is best, end at its least (Sun 1997).
     """
-    x, over = np.zeros(len(slope)), levels
+    over = levels + rows @ x
     for _ in range(_MOST_NEWTON_STEPS):
         beyond = over > 0.0
         counted, pull = rows[beyond], hessian @ x + slope
@@ -81,7 +85,7 @@ def _best_share(falls: float, bends: float, over: Array, changes: Array) -> floa
     return float(zeros[np.argmax(zeros <= np.append(at[turns], np.inf))])
 
 
-def _matrix(rows: Rows, longest: Array, weights: Array | None = None, *, walls: bool = False) -> Matrix:
+def _matrix(rows: Rows, longest: Array, weights: Array | None = None, wall: float = 0.0) -> Matrix:
     """Return the slopes of rows, weighted, by all unknowns, each in its longest step; below them both its walls."""
     columns, slopes = list[Columns](), list[Array]()
     for by, slope in zip(rows.columns, rows.slopes, strict=True):
@@ -91,8 +95,8 @@ def _matrix(rows: Rows, longest: Array, weights: Array | None = None, *, walls: 
     values = np.concatenate(slopes) * longest[column]
     if weights is not None:
         values *= np.repeat(weights, counts)
-    if walls:
+    if wall:
         one = np.arange(len(longest))
         column, counts = np.concatenate([column, one, one]), np.append(counts, np.ones(2 * len(one), dtype=np.intp))
-        values = np.concatenate([values, np.full(len(one), _WALL), np.full(len(one), -_WALL)])
+        values = np.concatenate([values, np.full(len(one), wall), np.full(len(one), -wall)])
     return sparse.csr_array((values, column, np.cumsum([0, *counts])), (len(counts), len(longest)))
