@@ -136,18 +136,22 @@ class Problem:
         def own(unknown: int | None) -> int | None:
             return None if unknown is None else number.get(unknown)
 
-        moments = {moment: replace(moment, unknown=own(moment.unknown)) for moment in self.moments}
+        def moved(moment: Moment) -> Moment:
+            return moment if moment.unknown is None else Moment(moment.constant_s, own(moment.unknown))
+
         legs = [
-            replace(
-                leg,
-                first=replace(leg.first, unknown=own(leg.first.unknown)),
-                last=replace(leg.last, unknown=own(leg.last.unknown)),
-                accels=tuple(number[accel] for accel in leg.accels),
+            Leg(
+                each.piece,
+                each.kind,
+                moved(each.first),
+                moved(each.last),
+                each.cells,
+                tuple(number[a] for a in each.accels),
             )
-            for leg in self._legs[hero]
+            for each in self._legs[hero]
         ]
         start = replace(self._starts[hero], place=own(self._starts[hero].place), speed=own(self._starts[hero].speed))
-        return _Own(np.array(columns, dtype=np.intp), start, legs, [moments[moment] for moment in self.moments])
+        return _Own(np.array(columns, dtype=np.intp), start, legs, [moved(moment) for moment in self.moments])
 
     def _rest(self) -> dict[int, int]:
         """Make an unknown of every one that is neither a time nor a state nor a rate; return which is which."""

@@ -6,8 +6,9 @@ squares are summed, and rows that are to be at most zero; both in units of cost,
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,32 +33,47 @@ _ROUNDING_S = 1e-6
 _SENSE = {PieceKind.DEC: -1.0, PieceKind.ACC: 1.0}
 
 
-@dataclass(slots=True)
-class Rows:
-    """Values and slopes; `most` is from where on a row's cost grows evenly, not with the square.
+class Block(NamedTuple):
+    """Rows of a kind: their values, and slopes by some unknowns, all where `columns` is None.
 
-    Slopes are by all unknowns, or by those only that `by` says when a row is added.
+    `most` is from where on the cost of each grows evenly, not with the square.
     """
 
-    values: list[float] = field(default_factory=list)
-    slopes: list[Array] = field(default_factory=list)
-    most: list[float] = field(default_factory=list)
-    columns: list[Columns | None] = field(default_factory=list)
+    values: Array
+    slopes: Array
+    most: float
+    columns: Columns | None
+
+
+@dataclass(slots=True)
+class Rows:
+    """Rows as they are added. Slopes are by all unknowns, or by those only that `by` says then."""
+
+    blocks: list[Block] = field(default_factory=list)
     by: Columns | None = None
+
+    @property
+    def values(self) -> Array:
+        """The values of all rows."""
+        return np.concatenate([np.zeros(0), *(block.values for block in self.blocks)])
+
+    @property
+    def slopes(self) -> Array:
+        """The slopes of all rows, where they are all by the same unknowns."""
+        return np.concatenate([block.slopes for block in self.blocks])
+
+    @property
+    def most(self) -> Array:
+        """From where on the cost of each row grows evenly."""
+        return np.repeat([block.most for block in self.blocks], [len(block.values) for block in self.blocks])
 
     def add(self, value: float, slope: Array, weight: float = 1.0, most: float = _ANY) -> None:
         """Add one row."""
-        self.values.append(weight * value)
-        self.slopes.append(weight * slope)
-        self.most.append(most)
-        self.columns.append(self.by)
+        self.blocks.append(Block(np.array([weight * value]), weight * slope[None], most, self.by))
 
     def add_all(self, values: Array, slopes: Array, weights: Array | float = 1.0, most: float = _ANY) -> None:
         """Add a row for each value, with its slopes in a row."""
-        self.values.extend((weights * values).tolist())
-        self.slopes.extend(np.asarray(weights)[..., None] * slopes)
-        self.most.extend([most] * len(values))
-        self.columns.extend([self.by] * len(values))
+        self.blocks.append(Block(weights * values, np.asarray(weights)[..., None] * slopes, most, self.by))
 
     def beyond(self, values: Array, slopes: Array, weight: float) -> None:
         """Add what is unpleasant only where it is greater than zero."""
@@ -104,6 +120,12 @@ class HeroRows:
             if unknown is not None:
                 slope[unknown] += value
         return slope
+
+    def _units(self, unknowns: Sequence[int], value: float) -> Array:
+        """Return slopes that are a value at one unknown each."""
+        slopes = np.zeros((len(unknowns), len(self.shot.z)))
+        slopes[np.arange(len(unknowns)), unknowns] = value
+        return slopes
 
     # -- comfort ------------------------------------------------------------------------------------------------------
     def _comfort(self) -> None:
@@ -166,12 +188,11 @@ class HeroRows:
                 self.costs.add(v, d_v, price / _STILL_MPS)
             if self._sets_off(number):
                 self._begins(number, 1.0)
-            sense = _SENSE.get(leg.kind, 0.0)
-            for accel in leg.accels if sense else ():
-                short = self.asked.wanted.least_rate_mpss - sense * float(self.shot.z[accel])
+            if sense := _SENSE.get(leg.kind):
+                short = self.asked.wanted.least_rate_mpss - sense * self.shot.z[list(leg.accels)]
                 # Braking that pauses is seen to begin anew; who has sped up may well go on evenly.
                 pauses = price if leg.kind is PieceKind.DEC else self.asked.wanted.least_rate_price
-                self.bounds.add(short, self._unit((accel, -sense)), pauses)
+                self.bounds.add_all(short, self._units(leg.accels, -sense), pauses)
             self._lasting(leg, stands_next=legs[number + 1].kind is PieceKind.STOP and number + 1 < len(legs) - 1)
 
     def _lasting(self, leg: Leg, *, stands_next: bool) -> None:
@@ -212,12 +233,13 @@ class HeroRows:
         self._begins(number, sense)
         settled_s = shot.time[node] - wanted.settled_s - _ROUNDING_S
         for before, leg in enumerate(shot.legs[:number]):
-            for k, accel in enumerate(leg.accels if leg.kind is PieceKind.GO else ()):
-                pull, slope = sense * float(shot.z[accel]), self._unit((accel, sense))
-                if shot.time[shot.first_node[before] + k] > settled_s:
-                    self.bounds.add(pull - wanted.settled_mpss, slope, rate)
-                else:  # what is to begin at the trigger is not plainly done before it
-                    self.bounds.add(pull - wanted.early_mpss, slope, wanted.early_price)
+            if leg.kind is PieceKind.GO:  # what is to begin at the trigger is not plainly done before it
+                late = shot.time[shot.first_node[before] :][: leg.cells + 1] > settled_s
+                most, prices = (
+                    np.where(late, wanted.settled_mpss, wanted.early_mpss),
+                    np.where(late, rate, wanted.early_price),
+                )
+                self.bounds.add_all(sense * shot.z[list(leg.accels)] - most, self._units(leg.accels, sense), prices)
 
     def _begins(self, number: int, sense: float) -> None:
         """Add that a leg is visibly begun: by speeding up (1) or slowing down (-1) from its first moment on."""
@@ -262,19 +284,17 @@ class HeroRows:
             slopes = d_s + (v / wanted.waits_mpss)[:, None] * d_v + d_run_up - d_place
             self.bounds.add_all(beyond_m[waits], slopes[waits], wanted.waits_price)
         if hero in self.now.lanes.apart:
-            for node in range(first, last + 1):
-                self._apart(node)
+            self._apart(slice(first, last + 1))
         if hero in self.now.lanes.plainly:
             self._plainly(last)
 
-    def _apart(self, node: int) -> None:
+    def _apart(self, nodes: slice) -> None:
         """Add that a hero on the ego's lane leaves room between the two."""
-        side, offset_m = self.now.lanes.apart[self.hero.id]
-        s_m, _, d_s, _ = self.shot.at_node(node)
-        ego_m, ego_mps, _ = self.now.ego(float(self.shot.time[node]))
-        room_m = side * (s_m + offset_m - ego_m) - VEHICLE_LENGTH_M - self.asked.wanted.clear_of_ego_m
-        slope = -side * (d_s - ego_mps * self.shot.d_time[node])
-        self.bounds.add(-room_m, slope, self.asked.wanted.price / _TIGHT_LENGTH, self.asked.wanted.out_of_way_most)
+        (side, offset_m), shot, wanted = self.now.lanes.apart[self.hero.id], self.shot, self.asked.wanted
+        ego = np.array([self.now.ego(time_s)[:2] for time_s in shot.time[nodes].tolist()])
+        room_m = side * (shot.s[nodes] + offset_m - ego[:, 0]) - VEHICLE_LENGTH_M - wanted.clear_of_ego_m
+        slopes = -side * (shot.d_s[nodes] - ego[:, 1:] * shot.d_time[nodes])
+        self.bounds.add_all(-room_m, slopes, wanted.price / _TIGHT_LENGTH, wanted.out_of_way_most)
 
     def _plainly(self, node: int) -> None:
         """Add that the distance changes plainly at the trigger: else it is as good as met for a long while."""

@@ -32,11 +32,11 @@ _STANDS, _MOST_NEWTON_STEPS = 1e-9, 100
 def sparse_step(problem: Problem, z: Array, costs: Rows, bounds: Rows, trusted: float) -> tuple[Array, float]:
     """Return the best step for the linearised rows, within a share of the longest, and what they cost after it."""
     longest, size = problem.step, problem.size
-    levels, most = np.array(bounds.values), np.array(bounds.most)
+    levels, most = bounds.values, bounds.most
     beyond = levels - most  # what grows evenly from there on costs more than its square where it is softened
     softened = np.sqrt(np.minimum(1.0, most / np.maximum(levels, 1e-9)))
     low, high = (np.clip((bound - z) / longest, -trusted, trusted) for bound in (problem.low, problem.high))
-    slopes, values, x = _matrix(costs, longest), np.array(costs.values), np.zeros(size)
+    slopes, values, x = _matrix(costs, longest), costs.values, np.zeros(size)
     hessian = slopes.T @ slopes + DAMPING**2 * sparse.eye_array(size, format="csr")
     for wall in _WALLS:
         rows = _matrix(bounds, longest, softened, wall)
@@ -50,9 +50,9 @@ def sparse_step(problem: Problem, z: Array, costs: Rows, bounds: Rows, trusted: 
 
 
 def least(hessian: Matrix, slope: Array, rows: Matrix, levels: Array, x: Array) -> Array:
-    """Return where half a quadratic form, a slope and half the squares of what of rows is beyond zero are least, from `x`.
+    """Return where half a quadratic form, a slope and half the squares of what of rows is beyond zero are least.
 
-    That is convex, and quadratic in parts: Newton's steps, each as long as is best, end at its least (Sun 1997).
+    That is convex, and quadratic in parts: Newton's steps from `x`, each as long as is best, end there (Sun 1997).
     """
     over = levels + rows @ x
     for _ in range(_MOST_NEWTON_STEPS):
@@ -87,16 +87,20 @@ def _best_share(falls: float, bends: float, over: Array, changes: Array) -> floa
 
 def _matrix(rows: Rows, longest: Array, weights: Array | None = None, wall: float = 0.0) -> Matrix:
     """Return the slopes of rows, weighted, by all unknowns, each in its longest step; below them both its walls."""
-    columns, slopes = list[Columns](), list[Array]()
-    for by, slope in zip(rows.columns, rows.slopes, strict=True):
-        columns.append(np.flatnonzero(slope) if by is None else by)
-        slopes.append(slope[columns[-1]] if by is None else slope)
-    column, counts = np.concatenate(columns), np.array([len(each) for each in columns])
+    columns, slopes, counts = list[Columns](), list[Array](), list[int]()
+    for block in rows.blocks:
+        by, count = block.columns, len(block.values)
+        if by is None:
+            by = np.flatnonzero(block.slopes.any(axis=0))
+        columns.append(np.tile(by, count))
+        slopes.append((block.slopes if block.columns is not None else block.slopes[:, by]).ravel())
+        counts += [len(by)] * count
+    column = np.concatenate(columns)
     values = np.concatenate(slopes) * longest[column]
     if weights is not None:
         values *= np.repeat(weights, counts)
     if wall:
         one = np.arange(len(longest))
-        column, counts = np.concatenate([column, one, one]), np.append(counts, np.ones(2 * len(one), dtype=np.intp))
+        column, counts = np.concatenate([column, one, one]), [*counts, *[1] * (2 * len(one))]
         values = np.concatenate([values, np.full(len(one), wall), np.full(len(one), -wall)])
     return sparse.csr_array((values, column, np.cumsum([0, *counts])), (len(counts), len(longest)))
