@@ -69,7 +69,7 @@ class Rows:
 
     def add(self, value: float, slope: Array, weight: float = 1.0, most: float = _ANY) -> None:
         """Add one row."""
-        self.blocks.append(Block(np.array([weight * value]), weight * slope[None], most, self.by))
+        self.add_all(np.array([value]), slope[None], weight, most)
 
     def add_all(self, values: Array, slopes: Array, weights: Array | float = 1.0, most: float = _ANY) -> None:
         """Add a row for each value, with its slopes in a row."""
@@ -245,10 +245,9 @@ class HeroRows:
         """Add that a leg is visibly begun: by speeding up (1) or slowing down (-1) from its first moment on."""
         wanted, shot, node = self.asked.wanted, self.shot, self.shot.first_node[number]
         lasts = max(float(shot.time[node + 1] - shot.time[node]), 1e-3)
-        for k, accel in enumerate(shot.legs[number].accels):
-            if (k - 1) * lasts < wanted.beginning_s:
-                short = wanted.beginning_mpss - sense * float(shot.z[accel])
-                self.bounds.add(short, self._unit((accel, -sense)), wanted.price / _TIGHT_RATE)
+        first = [accel for k, accel in enumerate(shot.legs[number].accels) if (k - 1) * lasts < wanted.beginning_s]
+        short = wanted.beginning_mpss - sense * shot.z[first]
+        self.bounds.add_all(short, self._units(first, -sense), wanted.price / _TIGHT_RATE)
 
     def _sets_off(self, number: int) -> bool:
         """Whether somebody drives on from a standstill in a leg."""

@@ -89,12 +89,10 @@ def _matrix(rows: Rows, longest: Array, weights: Array | None = None, wall: floa
     """Return the slopes of rows, weighted, by all unknowns, each in its longest step; below them both its walls."""
     columns, slopes, counts = list[Columns](), list[Array](), list[int]()
     for block in rows.blocks:
-        by, count = block.columns, len(block.values)
-        if by is None:
-            by = np.flatnonzero(block.slopes.any(axis=0))
-        columns.append(np.tile(by, count))
-        slopes.append((block.slopes if block.columns is not None else block.slopes[:, by]).ravel())
-        counts += [len(by)] * count
+        by = np.flatnonzero(block.slopes.any(axis=0)) if block.columns is None else block.columns
+        slopes.append((block.slopes[:, by] if block.columns is None else block.slopes).ravel())
+        columns += [by] * len(block.values)
+        counts += [len(by)] * len(block.values)
     column = np.concatenate(columns)
     values = np.concatenate(slopes) * longest[column]
     if weights is not None:
