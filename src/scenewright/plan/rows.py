@@ -113,14 +113,6 @@ class HeroRows:
             if narrowing.actor == self.hero.id:
                 self._narrowed(narrowing)
 
-    def _unit(self, *parts: tuple[int | None, float]) -> Array:
-        """Return a slope that is what is given at some unknowns."""
-        slope = np.zeros(len(self.shot.z))
-        for unknown, value in parts:
-            if unknown is not None:
-                slope[unknown] += value
-        return slope
-
     def _units(self, unknowns: Sequence[int], value: float) -> Array:
         """Return slopes that are a value at one unknown each."""
         slopes = np.zeros((len(unknowns), len(self.shot.z)))
@@ -133,16 +125,14 @@ class HeroRows:
         wanted, shot = self.asked.wanted, self.shot
         drive, first = self.now.heroes.get(self.hero.id), shot.legs[0]
         if drive is not None and first.accels and drive.begin_s <= self.now.time_s:  # it goes on from what it does now
-            rate = float(shot.z[first.accels[0]]) - drive.motion.state(drive.begin_s)[2]
-            self.costs.add(rate, self._unit((first.accels[0], 1.0)), wanted.change_weight)
+            rate = shot.z[[first.accels[0]]] - drive.motion.state(drive.begin_s)[2]
+            self.costs.add_all(rate, self._units(first.accels[:1], 1.0), wanted.change_weight)
         for number, leg in enumerate(shot.legs):
             if not leg.accels:
                 continue
-            cells, own = np.arange(leg.cells), np.array(leg.accels)
             roots = np.maximum(np.diff(shot.time[shot.first_node[number] :][: leg.cells + 1]), 0.02) ** 0.5
-            change, mean = np.zeros((leg.cells, len(shot.z))), np.zeros((leg.cells, len(shot.z)))
-            change[cells, own[:-1]], change[cells, own[1:]] = -1.0, 1.0
-            mean[cells, own[:-1]], mean[cells, own[1:]] = 0.5, 0.5
+            one, other = self._units(leg.accels[:-1], 1.0), self._units(leg.accels[1:], 1.0)
+            change, mean = other - one, 0.5 * (one + other)
             self.costs.add_all(change @ shot.z, change, 1.0 / (roots * wanted.jerk_mpsss))
             self.costs.add_all(mean @ shot.z - self._usual_rate(number), mean, roots / wanted.accel_mpss)
 
@@ -200,7 +190,7 @@ class HeroRows:
         instants = [asked.knot(self.hero.id, self.hero.sketch.knots[leg.piece + k]) for k in (0, 1)]
         first, last = (self.moments[instant] for instant in instants)
         lasts = last.value(z) - first.value(z)
-        slope = self._unit((last.unknown, 1.0), (first.unknown, -1.0))
+        slope = last.slope(len(z)) - first.slope(len(z))
         if not np.any(slope):
             return
         firm = FIRM * wanted.price
@@ -317,7 +307,7 @@ class HeroRows:
             _, v, _, d_v = shot.at_node(node)
             self._within_bounds(v, d_v, float(law.speed_low), float(law.speed_high), _TIGHT_SPEED)
             if accel is not None:
-                rate, slope = float(shot.z[accel]), self._unit((accel, 1.0))
+                rate, slope = float(shot.z[accel]), self._units([accel], 1.0)[0]
                 self._within_bounds(rate, slope, float(law.rate_low), float(law.rate_high), _TIGHT_RATE)
 
     def _within_bounds(self, value: float, slope: Array, low: float, high: float, tight: float) -> None:
