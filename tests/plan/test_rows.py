@@ -86,8 +86,8 @@ def test_a_narrower_law_is_kept_where_it_holds(top_mps: float, broken: bool) -> 
     problem, z = planned(BOUNDED)
     fastest_mps = float(max(problem.shots(z)[HERO].v))
     rows = hero_rows(problem, moved(problem, z, speed=top_mps - fastest_mps))
-    for narrowing in problem.asked.narrowings:
-        rows._narrowed(narrowing)
+    for span in rows._spans():
+        rows._narrowed(*span)
     assert bool(max(rows.bounds.values) > 30.0) == broken
 
 

@@ -13,12 +13,12 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from scenewright.motion.laws import Law
 from scenewright.plan.asked import Asked
 from scenewright.plan.shooting import Leg, Moment, Shot
 from scenewright.plan.situation import Situation
 from scenewright.program.types import Actor, PieceKind
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
-from scenewright.solve.proofs.narrowing import Narrowing
 
 Array = NDArray[np.float64]
 Columns = NDArray[np.intp]
@@ -109,9 +109,8 @@ class HeroRows:
         self._pieces()
         self._at_trigger()
         self._before_trigger()
-        for narrowing in self.asked.narrowings:
-            if narrowing.actor == self.hero.id:
-                self._narrowed(narrowing)
+        for span in self._spans():
+            self._narrowed(*span)
 
     def _units(self, unknowns: Sequence[int], value: float) -> Array:
         """Return slopes that are a value at one unknown each."""
@@ -141,12 +140,9 @@ class HeroRows:
         wanted, now, leg = self.asked.wanted, self.shot.z, self.shot.legs[number]
         kind = PieceKind.ACC if self._sets_off(number) else leg.kind
         usual = {PieceKind.DEC: -wanted.braking_mpss, PieceKind.ACC: wanted.speeding_up_mpss}.get(kind, 0.0)
-        for narrowing in self.asked.narrowings:
-            if narrowing.actor == self.hero.id:
-                begin_s = max(self.moments[k].value(now) for k in narrowing.begins())
-                end_s = min(self.moments[k].value(now) for k in narrowing.ends())
-                if begin_s - _ROUNDING_S <= leg.first.value(now) and leg.last.value(now) <= end_s + _ROUNDING_S:
-                    usual = min(max(usual, float(narrowing.law.rate_low)), float(narrowing.law.rate_high))
+        for law, begin_s, end_s in self._spans():
+            if begin_s - _ROUNDING_S <= leg.first.value(now) and leg.last.value(now) <= end_s + _ROUNDING_S:
+                usual = min(max(usual, float(law.rate_low)), float(law.rate_high))
         return usual
 
     # -- limits -------------------------------------------------------------------------------------------------------
@@ -296,19 +292,23 @@ class HeroRows:
         self.bounds.add(self.asked.wanted.plain_mps - opens * rate, -opens * slope, self.asked.wanted.plain_price)
 
     # -- narrower laws ------------------------------------------------------------------------------------------------
-    def _narrowed(self, narrowing: Narrowing) -> None:
-        """Add a narrower law, which a constraint makes of a stretch of time."""
-        shot, law = self.shot, narrowing.law
-        begin_s = max(self.moments[k].value(shot.z) for k in narrowing.begins())
-        end_s = min(self.moments[k].value(shot.z) for k in narrowing.ends())
-        if narrowing.place is not None and begin_s >= end_s:
-            return  # the place was passed before, or never is
+    def _spans(self) -> Iterator[tuple[Law, float, float]]:
+        """Yield the narrower laws that constraints make of stretches of time, each with its begin and end (s)."""
+        for each in self.asked.narrowings:
+            if each.actor == self.hero.id:
+                begin_s = max(self.moments[k].value(self.shot.z) for k in each.begins())
+                end_s = min(self.moments[k].value(self.shot.z) for k in each.ends())
+                if each.place is None or begin_s < end_s:  # else the place was passed before, or never is
+                    yield each.law, begin_s, end_s
+
+    def _narrowed(self, law: Law, begin_s: float, end_s: float) -> None:
+        """Add a narrower law."""
+        speeds, rates = (float(law.speed_low), float(law.speed_high)), (float(law.rate_low), float(law.rate_high))
         for node, accel in self._within(begin_s, end_s):
-            _, v, _, d_v = shot.at_node(node)
-            self._within_bounds(v, d_v, float(law.speed_low), float(law.speed_high), _TIGHT_SPEED)
+            _, v, _, d_v = self.shot.at_node(node)
+            self._within_bounds(v, d_v, *speeds, _TIGHT_SPEED)
             if accel is not None:
-                rate, slope = float(shot.z[accel]), self._units([accel], 1.0)[0]
-                self._within_bounds(rate, slope, float(law.rate_low), float(law.rate_high), _TIGHT_RATE)
+                self._within_bounds(float(self.shot.z[accel]), self._units([accel], 1.0)[0], *rates, _TIGHT_RATE)
 
     def _within_bounds(self, value: float, slope: Array, low: float, high: float, tight: float) -> None:
         weight = self.asked.wanted.price / tight
