@@ -15,7 +15,7 @@ from itertools import product
 from scenewright.motion.profile import Profile, chain
 from scenewright.plan.afterwards import goes_on
 from scenewright.plan.asked import Asked
-from scenewright.plan.foresight import Foresight
+from scenewright.plan.foresight import Foresight, Motions
 from scenewright.plan.guesses import even_motions, meet_later
 from scenewright.plan.pairs import Meeting, in_order, meetings_of, needed
 from scenewright.plan.prediction import EgoSample, Predictor
@@ -182,12 +182,7 @@ class Planner:
         self._meetings = found.meetings
 
     def _planned_first(
-        self,
-        prediction: Profile,
-        joint_s: float,
-        guesses: Mapping[int, Profile],
-        trusted: float = 1.0,
-        most_steps: int = _FIRST_STEPS,
+        self, prediction: Profile, joint_s: float, guesses: Motions, trusted: float = 1.0, steps: int = _FIRST_STEPS
     ) -> _Found:
         """Return a first plan that is found from guesses: motions, or other plans with all their knots.
 
@@ -196,7 +191,7 @@ class Planner:
         problem = Problem(self._asked, self._first_situation(prediction, joint_s, guesses), needed(self._meetings))
         if trusted < 1.0:
             problem.keep_near(trusted)
-        return self._made(problem, solve(problem, problem.guess, most_steps, self._enough), prediction)
+        return self._made(problem, solve(problem, problem.guess, steps, self._enough), prediction)
 
     def _turned(self, best: _Found) -> _Found:
         """Return a first plan in which the two heroes that are dearest are turned, as long as that makes it cheaper."""
@@ -229,7 +224,7 @@ class Planner:
     def _answered(self, found: _Found) -> _Found:
         """Return a first plan, and what it costs, with the ego that answers it: it was made with one that did not."""
         self._keep(found)
-        return self._planned_first(self._ego.foreseen(found.plan.profiles), 0.0, found.plan.profiles, most_steps=0)
+        return self._planned_first(self._ego.foreseen(found.plan.profiles), 0.0, found.plan.profiles, steps=0)
 
     def _first_situation(self, prediction: Profile, joint_s: float, guesses: Mapping[int, Profile]) -> Situation:
         triggers = {

@@ -34,10 +34,7 @@ _SENSE = {PieceKind.DEC: -1.0, PieceKind.ACC: 1.0}
 
 
 class Block(NamedTuple):
-    """Rows of a kind: their values, and slopes by some unknowns, all where `columns` is None.
-
-    `most` is from where on the cost of each grows evenly, not with the square.
-    """
+    """Rows by some unknowns, all where `columns` is None; from `most` on each costs evenly more, not its square."""
 
     values: Array
     slopes: Array
