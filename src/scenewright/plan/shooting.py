@@ -199,12 +199,12 @@ def shoot(legs: Sequence[Leg], start: Start, z: Array) -> Shot:
             accel[here], after[here] = z[one], z[other]
         mean, way = 0.5 * (accel[here] + after[here]), (2.0 * accel[here] + after[here]) / 6.0
         more = mean[:, None] * d_lasts
-        more[cells, one] += 0.5 * lasts
-        more[cells, other] += 0.5 * lasts
+        more[cells[: len(one)], one] += 0.5 * lasts
+        more[cells[: len(one)], other] += 0.5 * lasts
         v[behind], d_v[behind] = v[node] + lasts * np.cumsum(mean), d_v[node] + np.cumsum(more, axis=0)
         more = lasts * d_v[here] + (v[here] + 2.0 * way * lasts)[:, None] * d_lasts
-        more[cells, one] += lasts**2 / 3.0
-        more[cells, other] += lasts**2 / 6.0
+        more[cells[: len(one)], one] += lasts**2 / 3.0
+        more[cells[: len(one)], other] += lasts**2 / 6.0
         s[behind] = s[node] + np.cumsum(v[here] * lasts + way * lasts**2)
         d_s[behind] = d_s[node] + np.cumsum(more, axis=0)
         node += leg.cells
