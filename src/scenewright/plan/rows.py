@@ -66,7 +66,7 @@ class Rows:
 
     def add(self, value: float, slope: Array, weight: float = 1.0, most: float = _ANY) -> None:
         """Add one row."""
-        self.add_all(np.array([value]), slope[None], weight, most)
+        self.blocks.append(Block(np.array([weight * value]), (weight * slope)[None], most, self.by))
 
     def add_all(self, values: Array, slopes: Array, weights: Array | float = 1.0, most: float = _ANY) -> None:
         """Add a row for each value, with its slopes in a row."""
@@ -112,7 +112,8 @@ class HeroRows:
     def _units(self, unknowns: Sequence[int], value: float) -> Array:
         """Return slopes that are a value at one unknown each."""
         slopes = np.zeros((len(unknowns), len(self.shot.z)))
-        slopes[np.arange(len(unknowns)), unknowns] = value
+        for row, unknown in enumerate(unknowns):
+            slopes[row, unknown] = value
         return slopes
 
     # -- comfort ------------------------------------------------------------------------------------------------------
@@ -229,8 +230,8 @@ class HeroRows:
         wanted, shot, node = self.asked.wanted, self.shot, self.shot.first_node[number]
         lasts = max(float(shot.time[node + 1] - shot.time[node]), 1e-3)
         first = [accel for k, accel in enumerate(shot.legs[number].accels) if (k - 1) * lasts < wanted.beginning_s]
-        short = wanted.beginning_mpss - sense * shot.z[first]
-        self.bounds.add_all(short, self._units(first, -sense), wanted.price / _TIGHT_RATE)
+        short, slopes = wanted.beginning_mpss - sense * shot.z[first], self._units(first, -sense)
+        self.bounds.add_all(short, slopes, wanted.price / _TIGHT_RATE)
 
     def _sets_off(self, number: int) -> bool:
         """Whether somebody drives on from a standstill in a leg."""
