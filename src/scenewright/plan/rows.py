@@ -303,8 +303,7 @@ class HeroRows:
         """Add a narrower law."""
         speeds, rates = (float(law.speed_low), float(law.speed_high)), (float(law.rate_low), float(law.rate_high))
         for node, accel in self._within(begin_s, end_s):
-            _, v, _, d_v = self.shot.at_node(node)
-            self._within_bounds(v, d_v, *speeds, _TIGHT_SPEED)
+            self._within_bounds(float(self.shot.v[node]), self.shot.d_v[node], *speeds, _TIGHT_SPEED)
             if accel is not None:
                 self._within_bounds(float(self.shot.z[accel]), self._units([accel], 1.0)[0], *rates, _TIGHT_RATE)
 
