@@ -95,3 +95,24 @@ CLOCK = Play(
 )
 def test_what_is_seen_more_than_once_may_be_either(pieces: list[tuple[float, float]], holds: bool) -> None:
     assert failing(judge(CLOCK.with_hero(pieces=pieces).case())) == (set() if holds else {"hero_onset"})
+
+
+# When braking begins is told, when it ends is seen from there on: what is seen first bounds nothing.
+SECOND = replace(
+    CLOCK,
+    text=text("[t0, go, t1, go, t2, dec, t3]", "A1(t1) == 2 s\nA1(t2) - A1(t1) == 2 s\nA1a(dec) == -2"),
+    trigger_s=2.0,
+)
+
+
+@pytest.mark.parametrize(
+    ("pieces", "holds"),
+    [
+        ([(4.0, 0.0), (2.0, -2.0)], True),
+        ([(2.5, 0.0), (0.6, -2.0), (0.9, 0.0), (2.0, -2.0)], True),
+        ([(2.5, 0.0), (0.6, -2.0), (0.9, 0.0), (2.0, -1.0)], False),
+        ([(2.5, 0.0), (0.6, -2.0), (1.5, 0.0), (2.0, -2.0)], False),
+    ],
+)
+def test_what_follows_from_a_knot_does_not_bound_it(pieces: list[tuple[float, float]], holds: bool) -> None:
+    assert (failing(judge(SECOND.with_hero(pieces=pieces).case())) == set()) is holds

@@ -29,7 +29,9 @@ def test_nothing_near_what_is_found_costs_less(seed: int, size: int, count: int)
     def cost(x: np.ndarray) -> float:
         return float(0.5 * x @ hessian @ x + slope @ x + 0.5 * np.sum(np.maximum(rows @ x + levels, 0.0) ** 2))
 
-    x = least(sparse.csr_array(hessian), slope, sparse.csr_array(rows.reshape(count, size)), levels)
+    x = least(
+        sparse.csr_array(hessian), slope, sparse.csr_array(rows.reshape(count, size)), levels, random.normal(size=size)
+    )
     pull = hessian @ x + slope + rows.T @ np.maximum(rows @ x + levels, 0.0)
     assert np.max(np.abs(pull)) <= ROUNDING * (1.0 + np.max(np.abs(hessian)) + np.sum(rows**2))
     assert all(cost(x) <= cost(x + 0.1 * random.normal(size=size)) for _ in range(10))

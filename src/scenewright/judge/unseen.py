@@ -46,8 +46,11 @@ def measured_at_best(case: Case) -> Measured:
     for group in loose * _PASSES:
         if not _concerned(case, amiss, group):
             continue
-        low, high = _between(case, found, group, frozenset[KnotKey]().union(*free))
+        follows = frozenset[KnotKey]().union(*first.visible) - told.keys()
+        low, high = _between(case, found, group, frozenset[KnotKey]().union(*free), follows)
         for time_s in _candidates(case, found, group, low, high, group in first.visible):
+            if not _concerned(case, amiss, group):
+                break
             other_told = {**told, **dict.fromkeys(group, time_s)}
             other = measure(case, other_told)
             less = _amiss(case, other)
@@ -90,8 +93,11 @@ def _candidates(
     return dict.fromkeys([*likely, *np.linspace(low, high, _TRIED).tolist()])
 
 
-def _between(case: Case, measured: Measured, group: Group, free: Group) -> tuple[float, float]:
-    """Return between which knots that are tied to a moment those of a group lie."""
+def _between(case: Case, measured: Measured, group: Group, free: Group, follows: Group) -> tuple[float, float]:
+    """Return between which knots that are tied to a moment those of a group lie.
+
+    Later ones that are looked for from these on, since something visible ties them, come after wherever these are.
+    """
     low, high = case.start_s, case.end_s
     for actor, knot in group:
         knots = case.program.actor(actor).sketch.knots
@@ -99,7 +105,10 @@ def _between(case: Case, measured: Measured, group: Group, free: Group) -> tuple
             time_s = float(np.max(measured.moments.knots.get((actor, other), np.inf)))
             if other == knot or (actor, other) in free or not np.isfinite(time_s):
                 continue
-            low, high = (max(low, time_s), high) if index < knots.index(knot) else (low, min(high, time_s))
+            if index < knots.index(knot):
+                low = max(low, time_s)
+            elif (actor, other) not in follows:
+                high = min(high, time_s)
     return low, high
 
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import takewhile
 from typing import Protocol
 
@@ -25,6 +26,7 @@ _NOTABLE_MPSS = 0.15
 _HEADWAY_S, _HEADWAYS_S, _JUDGED_S, _HALVINGS, _CRAWLS_MPS = 1.3, (0.2, 6.0), 1.0, 7, 1.0
 # Who brakes harder than this by itself slows for its turn or its stop line, whoever is ahead.
 _OWN_REASONS_MPSS = 0.3
+_follows = partial(following_accel, accel_mpss=_ACCEL_MPSS, brake_mpss=_BRAKE_MPSS, standstill_m=_STANDSTILL_M)
 
 
 class Moving(Protocol):
@@ -98,16 +100,7 @@ def foresee_follower(base: Profile, history: Sequence[EgoSample], leader: Leader
 
 
 def _interaction(time_s: float, s_m: float, speed_mps: float, leader: Leader, headway_s: float) -> float:
-    room_m, leader_mps = leader.ahead(time_s, s_m)
-    return following_accel(
-        speed_mps,
-        room_m,
-        leader_mps,
-        accel_mpss=_ACCEL_MPSS,
-        brake_mpss=_BRAKE_MPSS,
-        headway_s=headway_s,
-        standstill_m=_STANDSTILL_M,
-    )
+    return _follows(speed_mps, *leader.ahead(time_s, s_m), headway_s=headway_s)
 
 
 def _modelled(

@@ -15,7 +15,7 @@ from itertools import product
 from scenewright.motion.profile import Profile, chain
 from scenewright.plan.afterwards import goes_on
 from scenewright.plan.asked import Asked
-from scenewright.plan.foresight import Foresight
+from scenewright.plan.foresight import Foresight, Motions
 from scenewright.plan.guesses import even_motions, meet_later
 from scenewright.plan.pairs import Meeting, in_order, meetings_of, needed
 from scenewright.plan.prediction import EgoSample, Predictor
@@ -31,7 +31,8 @@ from scenewright.solve.arrival import LinearCondition
 from scenewright.solve.limits import Limits
 from scenewright.solve.plan import Plan
 
-# Newton steps of a first plan and of a tick, and how many more a tick has for each second that a trigger has moved by.
+# Newton steps of a first plan and of a tick, and how many more a tick has for each second that a trigger has moved by:
+# a step of several heroes counts for each of them, and the next tick goes on. Measured: fewer than four lose orders.
 _FIRST_STEPS, _TICK_STEPS, _STEPS_A_SECOND, _MOST_STEPS_MORE = 40, 4, 12, 16
 # First plans are solved for from these speeds (shares of the natural one) and, where both decide, triggers (s): Newton
 # finds the nearest plan, not the best.
@@ -181,7 +182,7 @@ class Planner:
         self._meetings = found.meetings
 
     def _planned_first(
-        self, prediction: Profile, joint_s: float, guesses: Mapping[int, Profile], trusted: float = 1.0
+        self, prediction: Profile, joint_s: float, guesses: Motions, trusted: float = 1.0, steps: int = _FIRST_STEPS
     ) -> _Found:
         """Return a first plan that is found from guesses: motions, or other plans with all their knots.
 
@@ -190,7 +191,7 @@ class Planner:
         problem = Problem(self._asked, self._first_situation(prediction, joint_s, guesses), needed(self._meetings))
         if trusted < 1.0:
             problem.keep_near(trusted)
-        return self._made(problem, solve(problem, problem.guess, _FIRST_STEPS, self._enough), prediction)
+        return self._made(problem, solve(problem, problem.guess, steps, self._enough), prediction)
 
     def _turned(self, best: _Found) -> _Found:
         """Return a first plan in which the two heroes that are dearest are turned, as long as that makes it cheaper."""
@@ -223,11 +224,7 @@ class Planner:
     def _answered(self, found: _Found) -> _Found:
         """Return a first plan, and what it costs, with the ego that answers it: it was made with one that did not."""
         self._keep(found)
-        foreseen = self._ego.foreseen(found.plan.profiles)
-        problem = Problem(
-            self._asked, self._first_situation(foreseen, 0.0, found.plan.profiles), needed(self._meetings)
-        )
-        return self._made(problem, solve(problem, problem.guess, 0), foreseen)
+        return self._planned_first(self._ego.foreseen(found.plan.profiles), 0.0, found.plan.profiles, steps=0)
 
     def _first_situation(self, prediction: Profile, joint_s: float, guesses: Mapping[int, Profile]) -> Situation:
         triggers = {
@@ -299,8 +296,8 @@ class Planner:
             prediction = self._ego.foreseen(self.plan.profiles)
             situation, moved_s = self._situation(time_s, prediction)
             problem = Problem(self._asked, situation, self._meetings)
-            steps = _TICK_STEPS + min(_MOST_STEPS_MORE, int(_STEPS_A_SECOND * moved_s))
-            solution = solve(problem, problem.guess, steps, _ENOUGH_TICK + self._enough)
+            more = min(_MOST_STEPS_MORE, int(_STEPS_A_SECOND * moved_s)) // len(self.scene.program.heroes)
+            solution = solve(problem, problem.guess, _TICK_STEPS + more, _ENOUGH_TICK + self._enough)
             self._keep(self._made(problem, solution, prediction))
             foreseen = self.plan.profiles[EGO]
             record = Replan(time_s, _status(solution), "daqp", 0.0, solution.missed.by, "", foreseen)

@@ -136,18 +136,22 @@ class Problem:
         def own(unknown: int | None) -> int | None:
             return None if unknown is None else number.get(unknown)
 
-        moments = {moment: replace(moment, unknown=own(moment.unknown)) for moment in self.moments}
+        def moved(moment: Moment) -> Moment:
+            return moment if moment.unknown is None else Moment(moment.constant_s, own(moment.unknown))
+
         legs = [
-            replace(
-                leg,
-                first=replace(leg.first, unknown=own(leg.first.unknown)),
-                last=replace(leg.last, unknown=own(leg.last.unknown)),
-                accels=tuple(number[accel] for accel in leg.accels),
+            Leg(
+                each.piece,
+                each.kind,
+                moved(each.first),
+                moved(each.last),
+                each.cells,
+                tuple(number[a] for a in each.accels),
             )
-            for leg in self._legs[hero]
+            for each in self._legs[hero]
         ]
         start = replace(self._starts[hero], place=own(self._starts[hero].place), speed=own(self._starts[hero].speed))
-        return _Own(np.array(columns, dtype=np.intp), start, legs, [moments[moment] for moment in self.moments])
+        return _Own(np.array(columns, dtype=np.intp), start, legs, [moved(moment) for moment in self.moments])
 
     def _rest(self) -> dict[int, int]:
         """Make an unknown of every one that is neither a time nor a state nor a rate; return which is which."""
@@ -330,7 +334,7 @@ class Problem:
         for instant, planned_s in self.now.planned_s.items():
             moment = self.moments[instant]
             if moment.unknown is not None:
-                costs.add(moment.value(z) - planned_s, self._slope(moment), self.asked.wanted.punctual_weight)
+                costs.add(moment.value(z) - planned_s, moment.slope(self.size), self.asked.wanted.punctual_weight)
         for hero, shot in shots.items():
             actor, own = self.asked.scene.program.actor(hero), self._own[hero]
             costs.by = bounds.by = own.columns if len(own.columns) < self.size else None
@@ -373,12 +377,6 @@ class Problem:
             rows.add(row.level, row.slope, (FIRM if of_start else 1.0) * wanted.price)
         return Missed(by, late_s)
 
-    def _slope(self, moment: Moment) -> Array:
-        slope = np.zeros(self.size)
-        if moment.unknown is not None:
-            slope[moment.unknown] = 1.0
-        return slope
-
     def _point(self, z: Array, shots: Mapping[int, Shot]) -> tuple[Array, Array]:
         """Return the values of all unknowns of what is asked, a one behind them, and their derivatives."""
         asked = self.asked
@@ -386,7 +384,7 @@ class Problem:
         point[-1] = 1.0
         for number, moment in zip(asked.times, self.moments, strict=True):
             if number is not None:
-                point[number], slopes[number] = moment.value(z), self._slope(moment)
+                point[number], slopes[number] = moment.value(z), moment.slope(self.size)
         for (actor, instant), state in asked.events.states.items():
             place, speed = number_of(state.place), number_of(state.speed)
             if place is not None and speed is not None:
@@ -404,7 +402,7 @@ class Problem:
         self, actor: int, instant: int, z: Array, shots: Mapping[int, Shot]
     ) -> tuple[float, float, Array, Array]:
         moment = self.moments[instant]
-        time_s, d_time = moment.value(z), self._slope(moment)
+        time_s, d_time = moment.value(z), moment.slope(self.size)
         if actor == EGO:
             return self._ego_state(instant, z, shots)
         drive = self.now.heroes.get(actor)
@@ -428,7 +426,7 @@ class Problem:
     def _ego_state(self, instant: int, z: Array, shots: Mapping[int, Shot]) -> tuple[float, float, Array, Array]:
         """Return the ego's state as foreseen, and as it would answer heroes that do otherwise than then."""
         moment = self.moments[instant]
-        time_s, d_time = moment.value(z), self._slope(moment)
+        time_s, d_time = moment.value(z), moment.slope(self.size)
         s_m, speed_mps, accel = self.now.ego(time_s)
         d_s, d_v = speed_mps * d_time, accel * d_time
         for hero, answer in self.now.lanes.answers.items():

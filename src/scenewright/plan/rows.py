@@ -6,18 +6,19 @@ squares are summed, and rows that are to be at most zero; both in units of cost,
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from scenewright.motion.laws import Law
 from scenewright.plan.asked import Asked
 from scenewright.plan.shooting import Leg, Moment, Shot
 from scenewright.plan.situation import Situation
 from scenewright.program.types import Actor, PieceKind
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
-from scenewright.solve.proofs.narrowing import Narrowing
 
 Array = NDArray[np.float64]
 Columns = NDArray[np.intp]
@@ -32,32 +33,44 @@ _ROUNDING_S = 1e-6
 _SENSE = {PieceKind.DEC: -1.0, PieceKind.ACC: 1.0}
 
 
+class Block(NamedTuple):
+    """Rows by some unknowns, all where `columns` is None; from `most` on each costs evenly more, not its square."""
+
+    values: Array
+    slopes: Array
+    most: float
+    columns: Columns | None
+
+
 @dataclass(slots=True)
 class Rows:
-    """Values and slopes; `most` is from where on a row's cost grows evenly, not with the square.
+    """Rows as they are added. Slopes are by all unknowns, or by those only that `by` says then."""
 
-    Slopes are by all unknowns, or by those only that `by` says when a row is added.
-    """
-
-    values: list[float] = field(default_factory=list)
-    slopes: list[Array] = field(default_factory=list)
-    most: list[float] = field(default_factory=list)
-    columns: list[Columns | None] = field(default_factory=list)
+    blocks: list[Block] = field(default_factory=list)
     by: Columns | None = None
+
+    @property
+    def values(self) -> Array:
+        """The values of all rows."""
+        return np.concatenate([np.zeros(0), *(block.values for block in self.blocks)])
+
+    @property
+    def slopes(self) -> Array:
+        """The slopes of all rows, where they are all by the same unknowns."""
+        return np.concatenate([block.slopes for block in self.blocks])
+
+    @property
+    def most(self) -> Array:
+        """From where on the cost of each row grows evenly."""
+        return np.repeat([block.most for block in self.blocks], [len(block.values) for block in self.blocks])
 
     def add(self, value: float, slope: Array, weight: float = 1.0, most: float = _ANY) -> None:
         """Add one row."""
-        self.values.append(weight * value)
-        self.slopes.append(weight * slope)
-        self.most.append(most)
-        self.columns.append(self.by)
+        self.blocks.append(Block(np.array([weight * value]), (weight * slope)[None], most, self.by))
 
     def add_all(self, values: Array, slopes: Array, weights: Array | float = 1.0, most: float = _ANY) -> None:
         """Add a row for each value, with its slopes in a row."""
-        self.values.extend((weights * values).tolist())
-        self.slopes.extend(np.asarray(weights)[..., None] * slopes)
-        self.most.extend([most] * len(values))
-        self.columns.extend([self.by] * len(values))
+        self.blocks.append(Block(weights * values, np.asarray(weights)[..., None] * slopes, most, self.by))
 
     def beyond(self, values: Array, slopes: Array, weight: float) -> None:
         """Add what is unpleasant only where it is greater than zero."""
@@ -93,17 +106,15 @@ class HeroRows:
         self._pieces()
         self._at_trigger()
         self._before_trigger()
-        for narrowing in self.asked.narrowings:
-            if narrowing.actor == self.hero.id:
-                self._narrowed(narrowing)
+        for span in self._spans():
+            self._narrowed(*span)
 
-    def _unit(self, *parts: tuple[int | None, float]) -> Array:
-        """Return a slope that is what is given at some unknowns."""
-        slope = np.zeros(len(self.shot.z))
-        for unknown, value in parts:
-            if unknown is not None:
-                slope[unknown] += value
-        return slope
+    def _units(self, unknowns: Sequence[int], value: float) -> Array:
+        """Return slopes that are a value at one unknown each."""
+        slopes = np.zeros((len(unknowns), len(self.shot.z)))
+        for row, unknown in enumerate(unknowns):
+            slopes[row, unknown] = value
+        return slopes
 
     # -- comfort ------------------------------------------------------------------------------------------------------
     def _comfort(self) -> None:
@@ -111,16 +122,14 @@ class HeroRows:
         wanted, shot = self.asked.wanted, self.shot
         drive, first = self.now.heroes.get(self.hero.id), shot.legs[0]
         if drive is not None and first.accels and drive.begin_s <= self.now.time_s:  # it goes on from what it does now
-            rate = float(shot.z[first.accels[0]]) - drive.motion.state(drive.begin_s)[2]
-            self.costs.add(rate, self._unit((first.accels[0], 1.0)), wanted.change_weight)
+            rate = shot.z[[first.accels[0]]] - drive.motion.state(drive.begin_s)[2]
+            self.costs.add_all(rate, self._units(first.accels[:1], 1.0), wanted.change_weight)
         for number, leg in enumerate(shot.legs):
             if not leg.accels:
                 continue
-            cells, own = np.arange(leg.cells), np.array(leg.accels)
             roots = np.maximum(np.diff(shot.time[shot.first_node[number] :][: leg.cells + 1]), 0.02) ** 0.5
-            change, mean = np.zeros((leg.cells, len(shot.z))), np.zeros((leg.cells, len(shot.z)))
-            change[cells, own[:-1]], change[cells, own[1:]] = -1.0, 1.0
-            mean[cells, own[:-1]], mean[cells, own[1:]] = 0.5, 0.5
+            one, other = self._units(leg.accels[:-1], 1.0), self._units(leg.accels[1:], 1.0)
+            change, mean = other - one, 0.5 * (one + other)
             self.costs.add_all(change @ shot.z, change, 1.0 / (roots * wanted.jerk_mpsss))
             self.costs.add_all(mean @ shot.z - self._usual_rate(number), mean, roots / wanted.accel_mpss)
 
@@ -129,12 +138,9 @@ class HeroRows:
         wanted, now, leg = self.asked.wanted, self.shot.z, self.shot.legs[number]
         kind = PieceKind.ACC if self._sets_off(number) else leg.kind
         usual = {PieceKind.DEC: -wanted.braking_mpss, PieceKind.ACC: wanted.speeding_up_mpss}.get(kind, 0.0)
-        for narrowing in self.asked.narrowings:
-            if narrowing.actor == self.hero.id:
-                begin_s = max(self.moments[k].value(now) for k in narrowing.begins())
-                end_s = min(self.moments[k].value(now) for k in narrowing.ends())
-                if begin_s - _ROUNDING_S <= leg.first.value(now) and leg.last.value(now) <= end_s + _ROUNDING_S:
-                    usual = min(max(usual, float(narrowing.law.rate_low)), float(narrowing.law.rate_high))
+        for law, begin_s, end_s in self._spans():
+            if begin_s - _ROUNDING_S <= leg.first.value(now) and leg.last.value(now) <= end_s + _ROUNDING_S:
+                usual = min(max(usual, float(law.rate_low)), float(law.rate_high))
         return usual
 
     def _faint(self, number: int) -> float:
@@ -175,13 +181,12 @@ class HeroRows:
                 self.costs.add(v, d_v, price / _STILL_MPS)
             if self._sets_off(number):
                 self._begins(number, 1.0)
-            sense = _SENSE.get(leg.kind, 0.0)
-            least_mpss = self._faint(number) * self.asked.wanted.least_rate_mpss
-            for accel in leg.accels if sense else ():
-                short = least_mpss - sense * float(self.shot.z[accel])
+            if sense := _SENSE.get(leg.kind):
+                least_mpss = self._faint(number) * self.asked.wanted.least_rate_mpss
+                short = least_mpss - sense * self.shot.z[list(leg.accels)]
                 # Braking that pauses is seen to begin anew; who has sped up may well go on evenly.
                 pauses = price if leg.kind is PieceKind.DEC else self.asked.wanted.least_rate_price
-                self.bounds.add(short, self._unit((accel, -sense)), pauses)
+                self.bounds.add_all(short, self._units(leg.accels, -sense), pauses)
             self._lasting(leg, stands_next=legs[number + 1].kind is PieceKind.STOP and number + 1 < len(legs) - 1)
 
     def _lasting(self, leg: Leg, *, stands_next: bool) -> None:
@@ -189,7 +194,7 @@ class HeroRows:
         instants = [asked.knot(self.hero.id, self.hero.sketch.knots[leg.piece + k]) for k in (0, 1)]
         first, last = (self.moments[instant] for instant in instants)
         lasts = last.value(z) - first.value(z)
-        slope = self._unit((last.unknown, 1.0), (first.unknown, -1.0))
+        slope = last.slope(len(z)) - first.slope(len(z))
         if not np.any(slope):
             return
         firm = FIRM * wanted.price
@@ -220,25 +225,21 @@ class HeroRows:
         if sense is None:
             return
         self._begins(number, sense)
-        settled_mpss, early_mpss = (self._faint(number) * mpss for mpss in (wanted.settled_mpss, wanted.early_mpss))
         settled_s = shot.time[node] - wanted.settled_s - _ROUNDING_S
         for before, leg in enumerate(shot.legs[:number]):
-            for k, accel in enumerate(leg.accels if leg.kind is PieceKind.GO else ()):
-                pull, slope = sense * float(shot.z[accel]), self._unit((accel, sense))
-                if shot.time[shot.first_node[before] + k] > settled_s:
-                    self.bounds.add(pull - settled_mpss, slope, rate)
-                else:  # what is to begin at the trigger is not plainly done before it
-                    self.bounds.add(pull - early_mpss, slope, wanted.early_price)
+            if leg.kind is PieceKind.GO:  # what is to begin at the trigger is not plainly done before it
+                late = shot.time[shot.first_node[before] :][: leg.cells + 1] > settled_s
+                most = self._faint(number) * np.where(late, wanted.settled_mpss, wanted.early_mpss)
+                prices = np.where(late, rate, wanted.early_price)
+                self.bounds.add_all(sense * shot.z[list(leg.accels)] - most, self._units(leg.accels, sense), prices)
 
     def _begins(self, number: int, sense: float) -> None:
         """Add that a leg is visibly begun: by speeding up (1) or slowing down (-1) from its first moment on."""
         wanted, shot, node = self.asked.wanted, self.shot, self.shot.first_node[number]
         lasts = max(float(shot.time[node + 1] - shot.time[node]), 1e-3)
-        visible_mpss = self._faint(number) * wanted.beginning_mpss
-        for k, accel in enumerate(shot.legs[number].accels):
-            if (k - 1) * lasts < wanted.beginning_s:
-                short = visible_mpss - sense * float(shot.z[accel])
-                self.bounds.add(short, self._unit((accel, -sense)), wanted.price / _TIGHT_RATE)
+        first = [accel for k, accel in enumerate(shot.legs[number].accels) if (k - 1) * lasts < wanted.beginning_s]
+        short, slopes = self._faint(number) * wanted.beginning_mpss - sense * shot.z[first], self._units(first, -sense)
+        self.bounds.add_all(short, slopes, wanted.price / _TIGHT_RATE)
 
     def _sets_off(self, number: int) -> bool:
         """Whether somebody drives on from a standstill in a leg."""
@@ -274,19 +275,17 @@ class HeroRows:
             slopes = d_s + (v / wanted.waits_mpss)[:, None] * d_v + d_run_up - d_place
             self.bounds.add_all(beyond_m[waits], slopes[waits], wanted.waits_price)
         if hero in self.now.lanes.apart:
-            for node in range(first, last + 1):
-                self._apart(node)
+            self._apart(slice(first, last + 1))
         if hero in self.now.lanes.plainly:
             self._plainly(last)
 
-    def _apart(self, node: int) -> None:
+    def _apart(self, nodes: slice) -> None:
         """Add that a hero on the ego's lane leaves room between the two."""
-        side, offset_m = self.now.lanes.apart[self.hero.id]
-        s_m, _, d_s, _ = self.shot.at_node(node)
-        ego_m, ego_mps, _ = self.now.ego(float(self.shot.time[node]))
-        room_m = side * (s_m + offset_m - ego_m) - VEHICLE_LENGTH_M - self.asked.wanted.clear_of_ego_m
-        slope = -side * (d_s - ego_mps * self.shot.d_time[node])
-        self.bounds.add(-room_m, slope, self.asked.wanted.price / _TIGHT_LENGTH, self.asked.wanted.out_of_way_most)
+        (side, offset_m), shot, wanted = self.now.lanes.apart[self.hero.id], self.shot, self.asked.wanted
+        ego = np.array([self.now.ego(time_s)[:2] for time_s in shot.time[nodes].tolist()])
+        room_m = side * (shot.s[nodes] + offset_m - ego[:, 0]) - VEHICLE_LENGTH_M - wanted.clear_of_ego_m
+        slopes = -side * (shot.d_s[nodes] - ego[:, 1:] * shot.d_time[nodes])
+        self.bounds.add_all(-room_m, slopes, wanted.price / _TIGHT_LENGTH, wanted.out_of_way_most)
 
     def _plainly(self, node: int) -> None:
         """Add that the distance changes plainly at the trigger: else it is as good as met for a long while."""
@@ -299,19 +298,22 @@ class HeroRows:
         self.bounds.add(self.asked.wanted.plain_mps - opens * rate, -opens * slope, self.asked.wanted.plain_price)
 
     # -- narrower laws ------------------------------------------------------------------------------------------------
-    def _narrowed(self, narrowing: Narrowing) -> None:
-        """Add a narrower law, which a constraint makes of a stretch of time."""
-        shot, law = self.shot, narrowing.law
-        begin_s = max(self.moments[k].value(shot.z) for k in narrowing.begins())
-        end_s = min(self.moments[k].value(shot.z) for k in narrowing.ends())
-        if narrowing.place is not None and begin_s >= end_s:
-            return  # the place was passed before, or never is
+    def _spans(self) -> Iterator[tuple[Law, float, float]]:
+        """Yield the narrower laws that constraints make of stretches of time, each with its begin and end (s)."""
+        for each in self.asked.narrowings:
+            if each.actor == self.hero.id:
+                begin_s = max(self.moments[k].value(self.shot.z) for k in each.begins())
+                end_s = min(self.moments[k].value(self.shot.z) for k in each.ends())
+                if each.place is None or begin_s < end_s:  # else the place was passed before, or never is
+                    yield each.law, begin_s, end_s
+
+    def _narrowed(self, law: Law, begin_s: float, end_s: float) -> None:
+        """Add a narrower law."""
+        speeds, rates = (float(law.speed_low), float(law.speed_high)), (float(law.rate_low), float(law.rate_high))
         for node, accel in self._within(begin_s, end_s):
-            _, v, _, d_v = shot.at_node(node)
-            self._within_bounds(v, d_v, float(law.speed_low), float(law.speed_high), _TIGHT_SPEED)
+            self._within_bounds(float(self.shot.v[node]), self.shot.d_v[node], *speeds, _TIGHT_SPEED)
             if accel is not None:
-                rate, slope = float(shot.z[accel]), self._unit((accel, 1.0))
-                self._within_bounds(rate, slope, float(law.rate_low), float(law.rate_high), _TIGHT_RATE)
+                self._within_bounds(float(self.shot.z[accel]), self._units([accel], 1.0)[0], *rates, _TIGHT_RATE)
 
     def _within_bounds(self, value: float, slope: Array, low: float, high: float, tight: float) -> None:
         weight = self.asked.wanted.price / tight

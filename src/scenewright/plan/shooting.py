@@ -36,6 +36,13 @@ class Moment:
         """Return the time (s)."""
         return self.constant_s + (0.0 if self.unknown is None else float(z[self.unknown]))
 
+    def slope(self, size: int) -> Array:
+        """Return its derivative by all of so many unknowns."""
+        slope = np.zeros(size)
+        if self.unknown is not None:
+            slope[self.unknown] = 1.0
+        return slope
+
 
 @dataclass(frozen=True, slots=True)
 class Leg:
@@ -152,9 +159,8 @@ class Shot:
         lasts = max(float(self.time[node + 1] - self.time[node]), 1e-6)
         share = min(max((time_s - float(self.time[node])) / lasts, 0.0), 1.0)
         da, db = self._d_accel(node)
-        return (1 - share) * float(self.accel[node]) + share * float(self.accel_after[node]), (
-            1 - share
-        ) * da + share * db
+        rate = (1 - share) * float(self.accel[node]) + share * float(self.accel_after[node])
+        return rate, (1 - share) * da + share * db
 
     def _d_accel(self, node: int) -> tuple[Array, Array]:
         da, db = np.zeros(len(self.z)), np.zeros(len(self.z))
@@ -183,12 +189,8 @@ def shoot(legs: Sequence[Leg], start: Start, z: Array) -> Shot:
     for leg in legs:
         first_node.append(node)
         begin, lasts = leg.first.value(z), (leg.last.value(z) - leg.first.value(z)) / leg.cells
-        d_begin, d_lasts = np.zeros(size), np.zeros(size)
-        if leg.first.unknown is not None:
-            d_begin[leg.first.unknown] = 1.0
-            d_lasts[leg.first.unknown] -= 1.0 / leg.cells
-        if leg.last.unknown is not None:
-            d_lasts[leg.last.unknown] += 1.0 / leg.cells
+        d_begin = leg.first.slope(size)
+        d_lasts = (leg.last.slope(size) - d_begin) / leg.cells
         cells = np.arange(leg.cells)
         here, behind = slice(node, node + leg.cells), slice(node + 1, node + leg.cells + 1)
         time[node], d_time[node] = begin, d_begin
@@ -198,14 +200,12 @@ def shoot(legs: Sequence[Leg], start: Start, z: Array) -> Shot:
             accel[here], after[here] = z[one], z[other]
         mean, way = 0.5 * (accel[here] + after[here]), (2.0 * accel[here] + after[here]) / 6.0
         more = mean[:, None] * d_lasts
-        if leg.accels:
-            more[cells, one] += 0.5 * lasts
-            more[cells, other] += 0.5 * lasts
+        more[cells[: len(one)], one] += 0.5 * lasts
+        more[cells[: len(one)], other] += 0.5 * lasts
         v[behind], d_v[behind] = v[node] + lasts * np.cumsum(mean), d_v[node] + np.cumsum(more, axis=0)
         more = lasts * d_v[here] + (v[here] + 2.0 * way * lasts)[:, None] * d_lasts
-        if leg.accels:
-            more[cells, one] += lasts**2 / 3.0
-            more[cells, other] += lasts**2 / 6.0
+        more[cells[: len(one)], one] += lasts**2 / 3.0
+        more[cells[: len(one)], other] += lasts**2 / 6.0
         s[behind] = s[node] + np.cumsum(v[here] * lasts + way * lasts**2)
         d_s[behind] = d_s[node] + np.cumsum(more, axis=0)
         node += leg.cells

@@ -65,9 +65,9 @@ def solve(problem: Problem, z: Array, most_steps: int, enough: float = 0.0) -> S
 
 def _cost(costs: Rows, bounds: Rows) -> float:
     """Return the sum of half the squares; of a bound what is beyond it, and from `most` on evenly."""
-    over, most = np.maximum(np.array(bounds.values), 0.0), np.array(bounds.most)
+    over, most = np.maximum(bounds.values, 0.0), bounds.most
     within = np.minimum(over, most)
-    return 0.5 * float(np.sum(np.array(costs.values) ** 2)) + float(np.sum(within * (over - 0.5 * within)))
+    return 0.5 * float(np.sum(costs.values**2)) + float(np.sum(within * (over - 0.5 * within)))
 
 
 def _step(problem: Problem, z: Array, costs: Rows, bounds: Rows, trusted: float) -> tuple[Array | None, float]:
@@ -75,15 +75,15 @@ def _step(problem: Problem, z: Array, costs: Rows, bounds: Rows, trusted: float)
 
     None where there is none.
     """
-    if any(by is not None for by in costs.columns):
+    if any(block.columns is not None for block in costs.blocks):
         from scenewright.plan.sparse_steps import sparse_step  # slow to import, and one hero needs none
 
         return sparse_step(problem, z, costs, bounds, trusted)
     import daqp
 
     longest, size = problem.step, problem.size
-    residuals, slopes = np.array(costs.values), np.array(costs.slopes) * longest
-    levels, rows, most = np.array(bounds.values), np.array(bounds.slopes) * longest, np.array(bounds.most)
+    residuals, slopes = costs.values, costs.slopes * longest
+    levels, rows, most = bounds.values, bounds.slopes * longest, bounds.most
     matters = (levels > -np.abs(rows).sum(axis=1)) & np.any(rows != 0.0, axis=1)
     levels, rows, most = levels[matters], rows[matters], most[matters]
     softened = np.sqrt(np.minimum(1.0, most / np.maximum(levels, 1e-9)))

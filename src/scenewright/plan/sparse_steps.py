@@ -22,8 +22,9 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 Matrix = sparse.csr_array
 
-# A step beyond what an unknown may be costs as if a bound so dear were broken: none is by more than rounding.
-_WALL = 1e5
+# A step beyond what an unknown may be costs as if a bound so dear were broken: at last none is by more than rounding.
+# Newton's steps stop at each wall: where walls are low at first, many are found at once, in half as many steps.
+_WALLS = 1e2, 1e5
 _SYMMETRIC: dict[str, Any] = {"diag_pivot_thresh": 0.0, "options": {"SymmetricMode": True}}
 _STANDS, _MOST_NEWTON_STEPS = 1e-9, 100
 
@@ -31,26 +32,29 @@ _STANDS, _MOST_NEWTON_STEPS = 1e-9, 100
 def sparse_step(problem: Problem, z: Array, costs: Rows, bounds: Rows, trusted: float) -> tuple[Array, float]:
     """Return the best step for the linearised rows, within a share of the longest, and what they cost after it."""
     longest, size = problem.step, problem.size
-    levels, most = np.array(bounds.values), np.array(bounds.most)
+    levels, most = bounds.values, bounds.most
     beyond = levels - most  # what grows evenly from there on costs more than its square where it is softened
     softened = np.sqrt(np.minimum(1.0, most / np.maximum(levels, 1e-9)))
     low, high = (np.clip((bound - z) / longest, -trusted, trusted) for bound in (problem.low, problem.high))
-    slopes, rows = _matrix(costs, longest), _matrix(bounds, longest, softened, walls=True)
-    levels = np.concatenate([softened * levels, -_WALL * high, _WALL * low])
+    slopes, values, x = _matrix(costs, longest), costs.values, np.zeros(size)
     hessian = slopes.T @ slopes + DAMPING**2 * sparse.eye_array(size, format="csr")
-    values = np.array(costs.values)
-    x = np.clip(least(hessian, slopes.T @ values, rows, levels), low, high)
-    after, over = values + slopes @ x, np.maximum(levels + rows @ x, 0.0)
+    for wall in _WALLS:
+        rows = _matrix(bounds, longest, softened, wall)
+        x = least(hessian, slopes.T @ values, rows, np.concatenate([softened * levels, -wall * high, wall * low]), x)
+        if np.all((low <= x) & (x <= high)):
+            break
+    x = np.clip(x, low, high)
+    after, over = values + slopes @ x, np.maximum(softened * levels + (rows @ x)[: len(levels)], 0.0)
     evenly = 0.5 * float(np.sum(most * beyond, where=beyond > 0.0))
     return np.asarray(x * longest, dtype=np.float64), 0.5 * float(after @ after + over @ over) + evenly
 
 
-def least(hessian: Matrix, slope: Array, rows: Matrix, levels: Array) -> Array:
+def least(hessian: Matrix, slope: Array, rows: Matrix, levels: Array, x: Array) -> Array:
     """Return where half a quadratic form, a slope and half the squares of what of rows is beyond zero are least.
 
-    That is convex, and quadratic in parts: Newton's steps, each as long as is best, end at its least (Sun 1997).
+    That is convex, and quadratic in parts: Newton's steps from `x`, each as long as is best, end there (Sun 1997).
     """
-    x, over = np.zeros(len(slope)), levels
+    over = levels + rows @ x
     for _ in range(_MOST_NEWTON_STEPS):
         beyond = over > 0.0
         counted, pull = rows[beyond], hessian @ x + slope
@@ -81,18 +85,20 @@ def _best_share(falls: float, bends: float, over: Array, changes: Array) -> floa
     return float(zeros[np.argmax(zeros <= np.append(at[turns], np.inf))])
 
 
-def _matrix(rows: Rows, longest: Array, weights: Array | None = None, *, walls: bool = False) -> Matrix:
+def _matrix(rows: Rows, longest: Array, weights: Array | None = None, wall: float = 0.0) -> Matrix:
     """Return the slopes of rows, weighted, by all unknowns, each in its longest step; below them both its walls."""
-    columns, slopes = list[Columns](), list[Array]()
-    for by, slope in zip(rows.columns, rows.slopes, strict=True):
-        columns.append(np.flatnonzero(slope) if by is None else by)
-        slopes.append(slope[columns[-1]] if by is None else slope)
-    column, counts = np.concatenate(columns), np.array([len(each) for each in columns])
+    columns, slopes, counts = list[Columns](), list[Array](), list[int]()
+    for block in rows.blocks:
+        by = np.flatnonzero(block.slopes.any(axis=0)) if block.columns is None else block.columns
+        slopes.append((block.slopes[:, by] if block.columns is None else block.slopes).ravel())
+        columns += [by] * len(block.values)
+        counts += [len(by)] * len(block.values)
+    column = np.concatenate(columns)
     values = np.concatenate(slopes) * longest[column]
     if weights is not None:
         values *= np.repeat(weights, counts)
-    if walls:
+    if wall:
         one = np.arange(len(longest))
-        column, counts = np.concatenate([column, one, one]), np.append(counts, np.ones(2 * len(one), dtype=np.intp))
-        values = np.concatenate([values, np.full(len(one), _WALL), np.full(len(one), -_WALL)])
+        column, counts = np.concatenate([column, one, one]), [*counts, *[1] * (2 * len(one))]
+        values = np.concatenate([values, np.full(len(one), wall), np.full(len(one), -wall)])
     return sparse.csr_array((values, column, np.cumsum([0, *counts])), (len(counts), len(longest)))
