@@ -164,7 +164,8 @@ def _rehearse(
 
     last = best = first
     for take in range(2, 1 + (request.takes if request.planner == "convex" else 1)):
-        if request.mode == "open" or world.ego_bounds.holds_speed or last.run is None or is_enough(request, last):
+        is_known = request.mode == "open" or world.ego_bounds.holds_speed
+        if is_known or last.status not in ("success", "failure") or last.run is None or is_enough(request, last):
             break
         drive = drive_profile(last.run.trace.actors[world.scene.program.ego.name])
         predictor = Rehearsed(drive, world.predictor)
@@ -179,14 +180,11 @@ def _rehearse(
             break  # nothing to drive, however the take begins
         last = replace(first, take=take, takes=last.takes, hindsight=None)
         _drive(request, last, world, planned, stages, progress)
-        if last.status == "interrupted":
-            return replace(best, takes=last.takes, status="interrupted")
-        if last.status == "failed":
-            break
-        best = max(best, last, key=partial(worth, request))
+        if last.status in ("success", "failure"):
+            best = max(best, last, key=partial(worth, request))
     if best.run is not None and best.verdict is not None:
         best.run.findings += approach_of(best.scene, best.run.trace, best.verdict.facts).unnatural
-    return replace(best, takes=last.takes)
+    return replace(best, takes=last.takes, status=last.status if last.status == "interrupted" else best.status)
 
 
 def _tolerance(request: Request) -> Tolerances:

@@ -181,17 +181,18 @@ class Planner:
         self.plan, self._moments_s, self._others = found.plan, found.moments_s, found.others
         self._meetings = found.meetings
 
-    def _planned_first(
-        self, prediction: Profile, joint_s: float, guesses: Motions, trusted: float = 1.0, steps: int = _FIRST_STEPS
-    ) -> _Found:
+    def _planned_first(self, prediction: Profile, joint_s: float, guesses: Motions, trusted: float = 1.0) -> _Found:
         """Return a first plan that is found from guesses: motions, or other plans with all their knots.
 
-        Of a longest step `trusted` is the share by which it may be off from them; 1 is no limit.
+        Of a longest step `trusted` is the share by which it may be off from them: 1 is no limit, 0 leaves them as they
+        are.
         """
         problem = Problem(self._asked, self._first_situation(prediction, joint_s, guesses), needed(self._meetings))
-        if trusted < 1.0:
+        if 0.0 < trusted < 1.0:
             problem.keep_near(trusted)
-        return self._made(problem, solve(problem, problem.guess, steps, self._enough), prediction)
+        return self._made(
+            problem, solve(problem, problem.guess, _FIRST_STEPS if trusted else 0, self._enough), prediction
+        )
 
     def _turned(self, best: _Found) -> _Found:
         """Return a first plan in which the two heroes that are dearest are turned, as long as that makes it cheaper."""
@@ -224,7 +225,7 @@ class Planner:
     def _answered(self, found: _Found) -> _Found:
         """Return a first plan, and what it costs, with the ego that answers it: it was made with one that did not."""
         self._keep(found)
-        return self._planned_first(self._ego.foreseen(found.plan.profiles), 0.0, found.plan.profiles, steps=0)
+        return self._planned_first(self._ego.foreseen(found.plan.profiles), 0.0, found.plan.profiles, trusted=0.0)
 
     def _first_situation(self, prediction: Profile, joint_s: float, guesses: Mapping[int, Profile]) -> Situation:
         triggers = {
