@@ -112,9 +112,8 @@ def placed_at(program: Program, instant: frozenset[KnotKey]) -> set[int]:
     found: set[int] = set()
     for formula in (constraint.formula for constraint in program.constraints):
         if isinstance(formula, Compare) and formula.operator == "==" and set(knots_of(formula)) <= instant:
-            for node in walk(formula):
-                if isinstance(node, State) and node.order == 0:
-                    found.add(node.actor)
+            placed = {node.actor for node in walk(formula) if isinstance(node, State) and node.order == 0}
+            found |= placed if len(placed) == 1 else set()
     return found
 
 

@@ -57,6 +57,11 @@ def decided(constraints: str, route: str = "W", manner: str = "") -> Decision:
         ("gap(A0, A1, t1) <= 3", "feasible"),  # the hero is behind
         ("gap(A0, A1, A1(t2)) == 0", "feasible"),  # after the trigger the ego may be hit
         ("A0(t1) == A2(t1)\ngap(A1, A2, t2) == 0", "infeasible"),  # heroes never may
+        ("A1x(t0) == A0x(t0) - 15\nA1x(t1) == A0x(t1) + 10", "infeasible"),  # nobody swaps places in one lane
+        ("A0x(t0) == 20\nA1x(t0) == 5\ngap(A0, A1, t1) == 20", "infeasible"),
+        ("A1x(t0) == A0x(t0) + 15\nA1x(t1) == A0x(t1) + 10", "feasible"),
+        ("A0(t1) == A2(t1)\nA1x(t0) == A2x(t0) + 20\nA1x(t1) == A2x(t1) - 20", "infeasible"),
+        ("A1x(t0) == A0x(t0) - 15\ngap(A0, A1, A1(t2)) == 10", "feasible"),  # after the trigger the ego may be hit
         ("gap(A0, A1, t1) == 3\nA0x(t1) == 100\nA1x(t1) == 103", "feasible"),  # told where both are: contact asked for
     ],
 )
@@ -84,15 +89,18 @@ def test_room_of_the_manner_is_asked_for_and_named() -> None:
 
 
 @settings(max_examples=40)
-@given(ego_m=st.floats(0.0, 500.0), hero_m=st.floats(0.0, 500.0))
-def test_the_rule_is_true_of_whoever_is_apart_and_of_nobody_else(ego_m: float, hero_m: float) -> None:
-    """In one lane all along: what is said is that the distance is a car's length, less a little, either way."""
+@given(places_m=st.tuples(*[st.floats(0.0, 500.0)] * 4))
+def test_the_rules_are_true_of_whoever_is_and_stays_apart_and_of_nobody_else(places_m: tuple[float, ...]) -> None:
+    """In one lane all along: the distance is a car's length, less a little, and on the side of the start."""
     scene = scene_of("gap(A0, A1, t1) == 10")
     structure = read_structure(scene.program)
     events = Events(scene, limits_of(scene), EgoBounds())
-    (rule,) = apart(events, structure, scene.program.constraints)
-    instant = events.knot(0, "t1")
+    clear, in_order = apart(events, structure, scene.program.constraints)
     point = [0.0] * len(events.unknowns)
-    for actor, place_m in ((0, ego_m), (1, hero_m)):
+    moments = [(actor, instant) for instant in (events.start, events.knot(0, "t1")) for actor in (0, 1)]
+    for (actor, instant), place_m in zip(moments, places_m, strict=True):
         point[events.state(actor, instant).place.number] = place_m
-    assert (violation(rule.formula, point) <= 1e-9) == (abs(ego_m - hero_m) >= 4.4 - 1e-9)
+    at_start_m, then_m = places_m[1] - places_m[0], places_m[3] - places_m[2]
+    assert (violation(clear.formula, point) <= 1e-9) == (abs(then_m) >= 4.4 - 1e-9)
+    stays = min(abs(at_start_m), abs(then_m)) >= 4.4 - 1e-9 and at_start_m * then_m > 0.0
+    assert (violation(in_order.formula, point) <= 1e-9) == stays
