@@ -254,3 +254,9 @@ def test_a_run_of_a_text_without_a_title_is_called_as_its_folder(run_dir: Path, 
     assert collect(run_dir)["name"] == "right turn, hero yields"
     edit(run_dir / "manifest.json", lambda manifest: manifest.update(name="description"))
     assert collect(run_dir)["name"] == run_dir.name
+
+
+def test_a_take_that_knew_the_ego_is_told_and_a_first_one_is_not(run_dir: Path, edit: Edit) -> None:
+    assert "Take" not in dict(collect(run_dir)["about"])
+    edit(run_dir / "manifest.json", lambda manifest: manifest.update(take=2))
+    assert dict(collect(run_dir)["about"])["Take"].startswith("2, which knew")

@@ -197,6 +197,7 @@ def _about(manifest: Json) -> list[list[str]]:
         ("Mode", manifest.get("mode")),
         ("Tolerance", manifest.get("tolerance")),
         ("Seed", manifest.get("seed")),
+        ("Take", f"{take}, which knew how the ego drove before" if (take := manifest.get("take") or 1) > 1 else None),
         ("Re-solved at", f"{_shown(rates['replan_hz'])} Hz" if rates.get("replan_hz") else None),
         ("Translator", manifest.get("translator")),
         ("Version", manifest.get("scenewright_version")),
