@@ -57,7 +57,7 @@ def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def run(simulator: str, out: Path, story: str = "yields, distance") -> Result:
-    return orchestrate(Request(STORIES[story], simulator=simulator, out=out))
+    return orchestrate(Request(STORIES[story], simulator=simulator, takes=1, out=out))
 
 
 def manifest(out: Path) -> dict[str, object]:
