@@ -158,7 +158,7 @@ class HeroRows:
         # Who brakes into a bend is midway between two nodes faster than the second of them alone allows there.
         s, v, d_s, d_v = (0.5 * (each[1:] + each[:-1]) for each in (shot.s, shot.v, shot.d_s, shot.d_v))
         most, slope = caps.at(s)[0]
-        bends = most < max(caps.most)
+        bends = most < caps.most.max()
         self.bounds.add_all((v - most)[bends], (d_v - slope[:, None] * d_s)[bends], FIRM * wanted.price)
         (most, slope), (comfortable, other) = caps.at(shot.s)
         v, d_s, d_v = shot.v[1:], shot.d_s[1:], shot.d_v[1:]
