@@ -164,8 +164,8 @@ def _rehearse(
 
     last = best = first
     for take in range(2, 1 + (request.takes if request.planner == "convex" else 1)):
-        is_known = request.mode == "open" or world.ego_bounds.holds_speed
-        if is_known or last.status not in ("success", "failure") or last.run is None or is_enough(request, last):
+        learns_nothing = request.mode == "open" or world.ego_bounds.holds_speed
+        if learns_nothing or last.status not in ("success", "failure") or last.run is None or is_enough(request, last):
             break
         drive = drive_profile(last.run.trace.actors[world.scene.program.ego.name])
         predictor = Rehearsed(drive, world.predictor)

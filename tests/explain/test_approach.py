@@ -18,6 +18,20 @@ from scenewright.trace.model import ActorTrace, Trace
 from stories import STORIES
 
 SCENE = ground(parse_program(STORIES["yields, distance"]), load_map("t_intersection"))
+PROGRAM = """
+Actor 0 (ego):
+- W
+- [t0, go, t1, go, t2]
+
+Actor 1 (hero):
+- E, N
+- [{sketch}]
+
+Constraints:
+A0(t1) == A1(t3)
+A0x(t1) == conflict_point - 30
+A1v(t4) == 0
+"""
 STEP_S, TRIGGER_S, END_S = 0.02, 6.0, 9.0
 
 
@@ -61,6 +75,19 @@ def test_reversals_are_harsh_both_ways_and_soon(moves: tuple[tuple[float, float]
 def test_standing_is_half_a_second(stops_for_s: float, stands: bool) -> None:
     moves = ((2.0, -5.0), (2.0 + stops_for_s, 0.0), (6.0, 2.0))
     assert seen(driven(*moves)).stands is stands
+
+
+def test_whoever_is_told_to_stop_on_the_way_may_stand() -> None:
+    sketch = "t0, dec, t1, stop, t2, go, t3, dec, t4"
+    program = parse_program(PROGRAM.replace("{sketch}", sketch))
+    facts = {
+        "trigger_time_s": {"hero": TRIGGER_S},
+        "knot_times_s": {"hero": {"t0": 0.0, "t1": 4.0, "t2": 4.8, "t3": TRIGGER_S, "t4": 8.0}},
+    }
+    stands = driven((2.0, 0.0), (4.0, -5.0), (4.8, 0.0), (6.0, 2.0))
+    scene = ground(program, load_map("t_intersection"))
+    assert not approach_of(scene, stands, facts).stands
+    assert seen(stands).stands, "a program that says nothing of it"
 
 
 def test_sizes_are_those_of_the_motion() -> None:

@@ -67,9 +67,11 @@ def approach_of(scene: Scene, trace: Trace, facts: Mapping[str, Any]) -> Approac
     for hero in scene.program.heroes:
         trigger_s = facts["trigger_time_s"].get(hero.name)
         if trigger_s is not None and np.isfinite(trigger_s):
-            later = [time_s for time_s in facts["knot_times_s"][hero.name].values() if time_s > trigger_s]
-            next_s = min(trace.duration_s, *later, float("inf"))
-            found.append(_of_hero(scene, hero, trace.actors[hero.name], trigger_s, next_s))
+            times = facts["knot_times_s"][hero.name].values()
+            next_s = min([trace.duration_s, *(time_s for time_s in times if time_s > trigger_s)])
+            asked = hero.sketch.pieces[: sum(time_s < trigger_s for time_s in times)]
+            driven = trace.actors[hero.name]
+            found.append(_of_hero(scene, hero, driven, trigger_s, next_s, may_stand=PieceKind.STOP in asked))
     paces = [each.pace for each in found if each.pace is not None]
     return Approach(
         any(each.reverses for each in found),
@@ -80,7 +82,9 @@ def approach_of(scene: Scene, trace: Trace, facts: Mapping[str, Any]) -> Approac
     )
 
 
-def _of_hero(scene: Scene, hero: Actor, driven: ActorTrace, trigger_s: float, next_s: float) -> Approach:
+def _of_hero(
+    scene: Scene, hero: Actor, driven: ActorTrace, trigger_s: float, next_s: float, *, may_stand: bool
+) -> Approach:
     times = np.arange(driven.time_s[0], trigger_s, _EVERY_S)
     speeds = np.interp(times, driven.time_s, driven.speed_mps)
     accels = np.diff(speeds) / _EVERY_S
@@ -91,7 +95,7 @@ def _of_hero(scene: Scene, hero: Actor, driven: ActorTrace, trigger_s: float, ne
     allowed_mps = min(limit_mps, float(np.sqrt(speed_mps[1] ** 2 + 2 * _BRAKES_MPSS * max(0.0, s_m[1] - s_m[0]))))
     return Approach(
         _reverses(accels),
-        PieceKind.STOP not in hero.sketch.pieces[:1] and _longest(speeds < _STANDS_MPS) * _EVERY_S >= _STANDS_S,
+        not may_stand and _longest(speeds < _STANDS_MPS) * _EVERY_S >= _STANDS_S,
         [round(float(jerk), 3) for jerk in np.abs(np.diff(accels)) / _EVERY_S],
         [round(float(accel), 3) for accel in np.abs(accels)],
         float(speed_mps[0]) / allowed_mps if allowed_mps > 0.0 else None,
