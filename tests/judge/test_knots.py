@@ -15,6 +15,7 @@ from plays import (
     Motion,
     Play,
     actor_trace,
+    failed,
     text,
 )
 
@@ -163,3 +164,23 @@ def test_two_heroes_have_a_trigger_each() -> None:
     assert {c.id for c in late.conditions if not c.holds_at(LOOSE)} == {"second_onset"}
     after = three(Motion(90.0 - 52.5, 4.0, [(5.25, 0.0), (2.0, 1.0)]))
     assert "c10" in {c.id for c in after.conditions if not c.holds_at(LOOSE)}
+
+
+def test_two_pieces_of_one_kind_in_a_row_give_way_where_what_they_say_changes() -> None:
+    said = "A0(t1) == A1(t1)\nA0x(t1) == stop_line - 20\nA1x(t1) == conflict_point - 50\nA1a(dec1) == -1\nA1a(dec2) == -3"
+    timed = "\nA1(t2) == A1(t1) + 2\nA1(t3) == A1(t2) + 1"
+    play = Play(
+        text=text("[t0, go, t1, dec, t2, dec, t3]", said + timed),
+        ego=Motion(10.0, 10.0, []),
+        hero=Motion(20.0, 10.0, [(3.0, 0.0), (2.0, -1.0), (1.0, -3.0)]),
+        trigger_s=3.0,
+        hero_line=(500.0, 0.0, 0.0),
+    )
+    for each in (play, replace(play, text=text("[t0, go, t1, dec, t2, dec, t3]", said))):
+        verdict = judge(each.case())
+        assert failed(verdict, TIGHT) == set()
+        assert verdict.facts["knot_times_s"]["hero"]["t2"] == pytest.approx(5.0, abs=0.3)
+        early = judge(each.with_hero(pieces=[(3.0, 0.0), (0.8, -1.0), (2.2, -3.0)]).case())
+        assert bool(failed(early, LOOSE)) == (timed in each.text), "when the second begins is asked only where it is told"
+        even = judge(each.with_hero(pieces=[(3.0, 0.0), (3.0, -2.0)]).case())
+        assert {"c4", "c5"} & failed(even, TIGHT)

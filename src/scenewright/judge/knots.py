@@ -353,6 +353,8 @@ def _visible_time(case: Case, key: KnotKey, index: int, after_s: float) -> float
     if after is PieceKind.STOP:
         rest = rest_after(timeline, after_s, manner)
         return np.inf if rest is None else rest.start_s
+    if after == before:  # both brake, or both speed up: nothing shows where one gives way to the other
+        return None
     if after in SIGN_OF:
         phase = phase_at(timeline, after_s, SIGN_OF[after], manner)
         return np.inf if phase is None else phase.start_s

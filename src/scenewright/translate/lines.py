@@ -106,8 +106,12 @@ def _clause(teller: Teller, moment: int | None, told: Became) -> str:
         case st.Hold():
             return teller.hold(told)
         case st.Measure() if moment is None:
-            own = (deed.verb for deed in teller.story.deeds_of(told.actor) if told in deed.throughout)
-            return f"{clause(told)} while it {DOES[next(own, st.Verb.STAND)][0]}"
+            own = (
+                DOES[deed.verb][0] + teller.which_time(deed)
+                for deed in teller.story.deeds_of(told.actor)
+                if any(told is measure for measure in deed.throughout)
+            )
+            return f"{clause(told)} while it {next(own, DOES[st.Verb.STAND][0])}"
     assert moment is not None
     if told is None:
         return f"all of this is at one moment, when {teller.event(moment)}"

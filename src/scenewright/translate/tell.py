@@ -227,16 +227,16 @@ class Teller(Phrases):
                 return self.clause(measure, passing=st.standstill(measure.actor) not in conditions)
         for deed in self.begun:
             if deed.begins == moment and moment != st.START:
-                return f"{self.name(deed.actor)} begins to {DOES[deed.verb][1]}{self._time(deed)}"
+                return f"{self.name(deed.actor)} begins to {DOES[deed.verb][1]}{self.which_time(deed)}"
         for deed in self.begun:
             if deed.ends == moment and (deed in self.ended or moment not in self.known):
                 self.ended.append(deed)
-                return f"{self.name(deed.actor)} finishes {DOES[deed.verb][2]}{self._time(deed)}"
+                return f"{self.name(deed.actor)} finishes {DOES[deed.verb][2]}{self.which_time(deed)}"
         if not own:
             raise untold("a moment that nothing tells from others")
         return self.clause(own[0])
 
-    def _time(self, deed: st.Deed) -> str:
+    def which_time(self, deed: st.Deed) -> str:
         """Return which time somebody does a deed, where it is not the first."""
         number = [each for each in self.story.deeds_of(deed.actor) if each.verb == deed.verb].index(deed)
         if number >= len(ORDINALS):

@@ -216,11 +216,12 @@ class Events:
     def _lay_out(self, actor: Actor) -> None:
         """Put a law on each piece of an actor's way in which it does not move freely."""
         knots = [self.knot(actor.id, name) for name in actor.sketch.knots]
-        for (first, last), kind in zip(pairwise(knots), actor.sketch.pieces, strict=True):
+        pieces = actor.sketch.pieces
+        for index, ((first, last), kind) in enumerate(zip(pairwise(knots), pieces, strict=True)):
             self.order(first, last)
             law = self.law_of_piece(actor.id, kind)
             if law != self.law_of(actor.id):
-                origin = f"while {actor.name} {does(kind)}, it {law.words()}"
+                origin = f"while {actor.name} {does(kind, pieces[:index].count(kind))}, it {law.words()}"
                 self.pieces.append(Narrowing(actor.id, first, last, law, law, origin=origin))
         for instant in dict.fromkeys(knots):
             self.state(actor.id, instant)
