@@ -167,7 +167,9 @@ def test_two_heroes_have_a_trigger_each() -> None:
 
 
 def test_two_pieces_of_one_kind_in_a_row_give_way_where_what_they_say_changes() -> None:
-    said = "A0(t1) == A1(t1)\nA0x(t1) == stop_line - 20\nA1x(t1) == conflict_point - 50\nA1a(dec1) == -1\nA1a(dec2) == -3"
+    said = (
+        "A0(t1) == A1(t1)\nA0x(t1) == stop_line - 20\nA1x(t1) == conflict_point - 50\nA1a(dec1) == -1\nA1a(dec2) == -3"
+    )
     timed = "\nA1(t2) == A1(t1) + 2\nA1(t3) == A1(t2) + 1"
     play = Play(
         text=text("[t0, go, t1, dec, t2, dec, t3]", said + timed),
@@ -181,6 +183,8 @@ def test_two_pieces_of_one_kind_in_a_row_give_way_where_what_they_say_changes() 
         assert failed(verdict, TIGHT) == set()
         assert verdict.facts["knot_times_s"]["hero"]["t2"] == pytest.approx(5.0, abs=0.3)
         early = judge(each.with_hero(pieces=[(3.0, 0.0), (0.8, -1.0), (2.2, -3.0)]).case())
-        assert bool(failed(early, LOOSE)) == (timed in each.text), "when the second begins is asked only where it is told"
+        assert bool(failed(early, LOOSE)) == (timed in each.text), (
+            "when the second begins is asked only where it is told"
+        )
         even = judge(each.with_hero(pieces=[(3.0, 0.0), (3.0, -2.0)]).case())
         assert {"c4", "c5"} & failed(even, TIGHT)

@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
-from many_heroes import PROGRAMS, drive
 
 from scenewright.judge.tolerance import TIGHT
-from scenewright.orchestrate import orchestrate
 from scenewright.plan.planner import GOOD
 from scenewright.program.types import PieceKind
-from scenewright.request import Request
 from scenewright.simulate.hindsight import ego_left_no_room
 from scenewright.simulate.loop import Run
 from scenewright.solve.limits import ACCEL_MAX_MPSS, BRAKE_MAX_MPSS
-from stories import HERO, STEP_S, STORIES, TICK_S, Scripted, Stage, driven, program
+from stories import HERO, STEP_S, STORIES, TICK_S, Scripted, Stage, driven
 
 TABLE = [
     ("yields, distance", "constant", 0),
@@ -177,62 +172,3 @@ def test_hero_that_stands_decides_anew_when_to_go() -> None:
         going = [r.status for r in run.replans if r.time_s > knots["t3"] + TICK_S]
         assert "frozen" not in standing
         assert set(going) == {"frozen"}
-
-
-def test_a_run_goes_on_while_anybody_may_still_do_what_is_asked() -> None:
-    """One that only drives is at the end of its route long before the other brakes."""
-    leaves = "Actor 2 (leaves):\n- E\n- [t0, go, t1]\n\nConstraints:"
-    driven = drive(PROGRAMS["crossing"](1).replace("Constraints:", leaves) + "A2x(t0) == route_end - 40\n", "idm")
-    ends_m = driven.scene.routes[2].landmarks["route_end"]
-    traces = driven.run.trace.actors
-    left_s = traces["leaves"].time_s[traces["leaves"].s_m > ends_m][0]
-    assert driven.verdict.facts["trigger_time_s"]["car1"] > left_s
-    assert driven.met == 2
-
-
-def test_an_ego_that_stands_for_good_is_not_waited_for() -> None:
-    stage = Stage(STORIES["yields, distance"], Scripted(lambda time_s, speed_mps: -2.0))
-    stage.begin(stage.scene.landmarks_m[0]["intersection"] - 90.0, 8.0)
-    ego = stage.run(tick_s=0.5).trace.actors["ego"]
-    assert ego.time_s[-1] - ego.time_s[ego.speed_mps > 0.1][-1] == pytest.approx(20.0, abs=2 * STEP_S)
-
-
-def test_a_run_goes_on_until_what_is_told_by_the_clock(tmp_path: Path) -> None:
-    """The hero stands long before, and so nothing else keeps the run going."""
-    hero = "A1x(t1) == conflict_point - 25\nA1x(t2) == conflict_point - 5\nA1v(t2) == 0\nlate: A1v(25) == 0\n"
-    trigger = "A0x(t0) == conflict_point - 120\nA0(t1) == A1(t1)\nA0x(t1) == conflict_point - 30\n"
-    path = tmp_path / "late.scene"
-    path.write_text(program("E, N", "t0, go, t1, dec, t2", trigger + hero))
-    result = orchestrate(Request(source=str(path), ego="constant", takes=1))
-    assert result.run is not None
-    assert result.run.trace.actors["hero"].time_s[-1] >= 25.0
-    assert result.status == "success"
-
-
-def test_a_run_goes_on_until_a_stretch_of_time_is_over_that_is_counted_from_a_moment() -> None:
-    """The hero stands and the ego has passed long before: nothing else keeps the run going."""
-    hero = "A1x(t1) == conflict_point - 25\nA1x(t2) == conflict_point - 5\nA1v(t2) == 0\n"
-    trigger = "A0(t1) == A1(t1)\nA0x(t1) == conflict_point - 30\nalways[A1(t2), A1(t2) + rests_s] (A1v <= 0.05)\n"
-    text = program("E, N", "t0, go, t1, dec, t2, stop, t3", trigger + hero)
-    result = orchestrate(Request(text, {"rests_s": 7}, ego="constant", takes=1))
-    assert result.status == "success"
-    assert result.run is not None
-    trace = result.run.trace.actors["hero"]
-    assert trace.time_s[trace.speed_mps <= 0.05][-1] - trace.time_s[trace.speed_mps > 0.05][-1] >= 6.9
-
-
-@pytest.mark.parametrize("at_s", [40, 95])
-def test_a_run_does_not_end_with_the_road_of_an_ego_that_nobody_waits_for(at_s: int) -> None:
-    """What the clock tells comes as late as can be proven at all, wherever the ego is by then."""
-    trigger = f"A1(t1) == {at_s} s\nA1x(t1) == stop_line - 15\nA1x(t2) == stop_line - 1\nA1v(t2) == 0\n"
-    result = orchestrate(Request(program("S, W", "t0, go, t1, dec, t2", trigger), ego="constant", takes=1))
-    assert result.status == "success"
-    assert result.run is not None
-    ego = result.run.trace.actors["ego"]
-    assert ego.s_m[ego.time_s < at_s][-1] > result.scene.landmarks_m[0]["route_end"]
-
-
-def test_a_run_ends_no_sooner_than_a_hero_is_at_the_very_end_of_its_road() -> None:
-    trigger = "A0(t1) == A1(t1)\nA0x(t1) == conflict_point - 40\nA1x(t1) == conflict_point - 20\nA1x(t2) == route_end\n"
-    result = orchestrate(Request(program("E, N", "t0, go, t1, acc, t2", trigger), ego="constant", takes=1))
-    assert result.status == "success"

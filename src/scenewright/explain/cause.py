@@ -26,7 +26,8 @@ from scenewright.plan.planner import GOOD
 from scenewright.program.expressions import Temporal, walk
 from scenewright.program.structure import Role, actors_of
 from scenewright.program.types import EGO, Actor, Constraint, Program
-from scenewright.simulate.loop import LONGEST_RUN_S, ROUTE_END_M, STANDS_MPS, Run
+from scenewright.simulate.ending import LONGEST_RUN_S, ROUTE_END_M, STANDS_MPS
+from scenewright.simulate.loop import Run
 from scenewright.simulate.world import World
 from scenewright.solve.feasibility import Feasibility
 from scenewright.translate.lines import in_words

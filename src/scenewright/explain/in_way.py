@@ -13,7 +13,8 @@ import numpy as np
 
 from scenewright.errors import PolicyError
 from scenewright.judge.tolerance import TIGHT, FloatArray
-from scenewright.simulate.loop import ROUTE_END_M, Run
+from scenewright.simulate.ending import ROUTE_END_M
+from scenewright.simulate.loop import Run
 from scenewright.simulate.world import World
 
 

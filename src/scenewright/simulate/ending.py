@@ -1,0 +1,98 @@
+"""When a run is over: all that the program tells of has happened, or will not happen any more.
+
+What enters: the program, the plans in force, and where everybody is. What leaves: whether to go on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from math import isfinite
+
+from scenewright.motion.profile import Profile
+from scenewright.program import expressions as ex
+from scenewright.program.evaluate import term_value
+from scenewright.program.structure import actors_of, knots_of, read_structure
+from scenewright.program.types import EGO, Program
+from scenewright.roads.grounding import Scene
+from scenewright.simulate.port import Snapshot
+from scenewright.solve.plan import PlanWorld
+from scenewright.solve.proofs.events import LONGEST_S
+
+LONGEST_RUN_S = float(LONGEST_S)  # what comes later is refuted before anything is driven
+_AFTER_HEROES_S = 2.0
+_SEEN_S = 0.5  # beyond what a stand has to last, for it to be seen to
+_WAIT_FOR_EGO_S = 10.0
+_STALLED_S, STANDS_MPS = 20.0, 0.1
+_MOVES_MPS = 0.5
+ROUTE_END_M = 3.0  # who is so near to the end of its road has come to it
+
+
+@dataclass(slots=True)
+class Ending:
+    """Watches one run for its end."""
+
+    scene: Scene
+    _told: list[ex.Term] = field(init=False)
+    _meets: dict[int, str] = field(init=False)
+    _ego_moved_s: float = field(init=False, default=0.0)
+
+    def __post_init__(self) -> None:
+        self._told, self._meets = _told_times(self.scene.program), _meets_ego(self.scene.program)
+
+    def is_now(self, plans: Mapping[int, Profile], now: Snapshot) -> bool:
+        """Whether the run is over; to be asked at every step.
+
+        An ego that has not moved for long is not waited for, nor one at the end of its road, where no hero meets it.
+        """
+        time_s, ego, route = now.time_s, now.actors[EGO], self.scene.routes[EGO]
+        if ego.speed_mps > STANDS_MPS:
+            self._ego_moved_s = time_s
+        end_m = route.landmarks["route_end"]
+        at_end = ego.s_m >= end_m - ROUTE_END_M
+        waits = any(plans[hero].knot_times_s.get(knot, 0.0) > time_s for hero, knot in self._meets.items())
+        if time_s >= LONGEST_RUN_S or time_s - self._ego_moved_s > _STALLED_S or (at_end and waits):
+            return True
+        # Whoever is at the end of its route does nothing more that a program asks for; others may.
+        heroes = [hero.id for hero in self.scene.program.heroes]
+        going = [h for h in heroes if now.actors[h].s_m < self.scene.routes[h].landmarks["route_end"]]
+        last_knot_s = max((max(plans[hero].knot_times_s.values()) for hero in going), default=-_WAIT_FOR_EGO_S)
+        stands_s = float(self.scene.program.manner.stands_s) + _SEEN_S
+        if time_s < max(self._told_s(plans), last_knot_s + max(_AFTER_HEROES_S, stands_s)):
+            return False
+        if time_s < last_knot_s + _WAIT_FOR_EGO_S and self._any_turning(now):
+            return False
+        passed = at_end or ego.s_m > route.landmarks.get("junction_end", end_m) + 5.0
+        return passed or time_s >= last_knot_s + _WAIT_FOR_EGO_S
+
+    def _told_s(self, plans: Mapping[int, Profile]) -> float:
+        """Return the latest time that the program tells, as planned (s)."""
+        world = PlanWorld(self.scene, plans, {name: float(value) for name, value in self.scene.parameters.items()})
+        return max((at_s for time in self._told if isfinite(at_s := term_value(time, world))), default=0.0)
+
+    def _any_turning(self, now: Snapshot) -> bool:
+        """Whether a hero is on its way through the junction: which way it went is part of the story."""
+        for hero in self.scene.program.heroes:
+            places, there = self.scene.routes[hero.id].landmarks, now.actors[hero.id]
+            inside = "junction_end" in places and places["junction_start"] < there.s_m < places["junction_end"]
+            if inside and there.speed_mps > _MOVES_MPS:
+                return True
+        return False
+
+
+def _told_times(program: Program) -> list[ex.Term]:
+    """Return the times that a program tells by the clock, or as so long after a moment."""
+    nodes = [node for constraint in program.constraints for node in ex.walk(constraint.formula)]
+    told: list[object] = [node.at for node in nodes if isinstance(node, ex.State | ex.Derived)]
+    told += [edge for node in nodes if isinstance(node, ex.Temporal) for edge in (node.start, node.end)]
+    return [time for time in told if isinstance(time, ex.Number | ex.Arithmetic)]
+
+
+def _meets_ego(program: Program) -> dict[int, str]:
+    """Return the trigger knot of each hero whose trigger speaks of the ego."""
+    structure = read_structure(program)
+    return {
+        hero: structure.trigger_knot(hero) or ""
+        for hero, instant in structure.triggers.items()
+        if any(EGO in actors_of(c.formula) for c in program.constraints if set(knots_of(c.formula)) <= instant)
+    }
