@@ -9,7 +9,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from plays import (
+    AHEAD,
     BRAKES,
+    CROSSING,
     NOT_YIELDING,
     YIELDS,
     Motion,
@@ -188,3 +190,40 @@ def test_two_pieces_of_one_kind_in_a_row_give_way_where_what_they_say_changes() 
         )
         even = judge(each.with_hero(pieces=[(3.0, 0.0), (3.0, -2.0)]).case())
         assert {"c4", "c5"} & failed(even, TIGHT)
+
+
+ENDS_BY_GAP = Play(
+    text=text(
+        "[t0, go, t1, acc, t2]",
+        "A0(t1) == A1(t1)\nA0x(t1) == stop_line - 10\nA1v(t0) == 8\nA0(t2) == A1(t2)\ngap(A0, A1, t2) == 25",
+        heading="E",
+    ),
+    ego=Motion(0.0, 10.0, []),
+    hero=Motion(30.0, 8.0, [(5.0, 0.0), (4.0, 2.0)]),
+    trigger_s=5.0,
+    hero_line=AHEAD,
+    offset_m=0.0,
+)
+
+
+def test_a_moment_is_looked_for_after_those_that_come_before_it() -> None:
+    # The gap is 25 m at 2.5 s, before the hero speeds up, and again at about 8.4 s.
+    verdict = judge(ENDS_BY_GAP.case())
+    assert failed(verdict, TIGHT) == set()
+    assert verdict.facts["knot_times_s"]["hero"]["t2"] == pytest.approx(6.0 + 6.0**0.5, abs=1e-3)
+    only_before = judge(ENDS_BY_GAP.with_hero(pieces=[(5.0, 0.0), (0.9, 2.0)]).case())
+    assert "c5" in failed(only_before, LOOSE)
+
+
+def test_what_a_sketch_has_later_may_not_have_come_before() -> None:
+    said = "A0(t1) == A1(t1)\nA0x(t1) == stop_line - 10\nA1x(t1) == conflict_point - 40\nA0x(t2) == stop_line - 30"
+    play = Play(
+        text=text("[t0, go, t1, dec, t2]", said),
+        ego=Motion(0.0, 10.0, []),
+        hero=Motion(10.0, 10.0, [(5.0, 0.0), (4.0, -2.0)]),
+        trigger_s=5.0,
+        hero_line=CROSSING,
+    )
+    verdict = judge(play.case())
+    assert failed(verdict, LOOSE) == {"order_of_moments"}
+    assert verdict.condition("order_of_moments").measured == pytest.approx(2.0, abs=1e-6)

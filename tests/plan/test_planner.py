@@ -306,3 +306,35 @@ def test_a_speed_that_can_be_proven_to_be_had_is_planned() -> None:
     asked = STANDS_AHEAD.replace("A1v(t2) == 8", "A1v(t2) == 17.9")
     scene, attempt, _ = planned(asked, (), "constant")
     assert not broken(scene, attempt.plan)
+
+
+def test_triggers_come_in_the_order_of_the_ego() -> None:
+    text = """
+Actor 0 (ego):
+- W
+- [t0, go, t1, go, t2, go, t3]
+
+Actor 1 (near):
+- W
+- [t0, go, t1, dec, t2]
+
+Actor 2 (far):
+- W
+- [t0, go, t1, acc, t2]
+
+Constraints:
+gap(A1, A2, t0) == 20
+gap(A0, A1, t0) == 50
+A0(t1) == A1(t1)
+gap(A0, A1, t1) == 30
+A1v(t2) == 0
+A0(t2) == A2(t1)
+gap(A0, A2, t2) == 60
+A2(t2) - A2(t1) == 3
+"""
+    world = begin(Request(f'scenario "two"\n{text}', ego="constant"), Stages(None))[0]
+    planned = first_plan(world, world.predictor)
+    assert planned is not None
+    times = planned[2].plan.profiles[EGO].knot_times_s
+    assert times["t1"] <= times["t2"] + 1e-6
+    assert planned[2].is_good

@@ -147,3 +147,23 @@ def test_slower_states_come_by_choice_after_what_the_policy_holds(initial: str) 
             assert (on.scene.landmarks_m[0]["intersection"] - start.s_m) / start.speed_mps == pytest.approx(
                 8.0, abs=1e-4
             )
+
+
+@pytest.mark.parametrize("ego", [*EGOS, "stop-and-go"])
+@pytest.mark.parametrize("at_s", [2, 5, 15])
+def test_an_ego_starts_so_that_alone_it_comes_to_its_place_when_the_program_says(ego: str, at_s: int) -> None:
+    on = stage(f"A1(t1) == {at_s}", ego)
+    place_m = on.scene.landmarks_m[0]["conflict_point"] - 30.0
+    for start in starts(on)[:2]:
+        on.ego.reset(start.s_m, start.speed_mps)
+        for step in range(20 * at_s):
+            on.ego.advance(on.ego.decide(0.05 * step, (), 0.05), 0.05)
+        assert on.ego.state.s_m == pytest.approx(place_m, abs=0.1)
+
+
+@pytest.mark.parametrize(("told", "low_s", "high_s"), [("A1(t1) <= 4", 3.5, 4.5), ("A1(t1) >= 11", 10.0, 12.0)])
+def test_a_bound_on_the_time_of_the_trigger_moves_the_start(told: str, low_s: float, high_s: float) -> None:
+    on = stage(told, "constant")
+    start = starts(on)[0]
+    way_m = on.scene.landmarks_m[0]["conflict_point"] - 30.0 - start.s_m
+    assert low_s <= way_m / start.speed_mps <= high_s

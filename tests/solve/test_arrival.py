@@ -16,7 +16,8 @@ from scenewright.motion.profile import Profile, chain
 from scenewright.program.text import parse_program
 from scenewright.roads import load_map
 from scenewright.roads.grounding import Scene, ground
-from scenewright.solve.arrival import HORIZON_S, LinearCondition, linear_conditions
+from scenewright.solve.arrival import HORIZON_S, LinearCondition, ego_knots_between_s, linear_conditions
+from stories import program
 
 T = load_map("t_intersection")
 HERE = frozenset({(0, "t1")})
@@ -176,3 +177,18 @@ def test_conditions_of_the_canonical_programs() -> None:
         scene = case.scene()
         found = linear_conditions(scene, read_structure(scene.program))
         assert {c.constraint_id for c in found} == wanted[case.name]
+
+
+@pytest.mark.parametrize(
+    ("line", "between_s"),
+    [
+        ("A1(t1) == 5", (5.0, 5.0)),
+        ("A1(t1) <= 4", (0.0, 4.0)),
+        ("A1(t2) == 9\nA1(t2) - A1(t1) >= 3", (0.0, 6.0)),
+        ("A0v(t0) == 5", (0.0, 120.0)),
+    ],
+)
+def test_when_the_ego_comes_to_its_knots(line: str, between_s: tuple[float, float]) -> None:
+    told = program("W", "t0, go, t1, dec, t2", f"A0(t1) == A1(t1)\ngap(A0, A1, t1) == 25\nA1v(t2) == 0\n{line}")
+    low, high = ego_knots_between_s(ground(parse_program(told), T))["t1"]
+    assert (low, high) == pytest.approx(between_s)

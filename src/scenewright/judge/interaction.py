@@ -23,8 +23,8 @@ _VERBS = {PieceKind.DEC: "brake", PieceKind.ACC: "speed up"}
 
 
 def interaction_conditions(case: Case, measured: Measured) -> list[Condition]:
-    """Judge what each hero's sketch says of the time from its trigger on."""
-    conditions: list[Condition] = []
+    """Judge what each sketch says of the order of its moments, and a hero's of the time from its trigger on."""
+    conditions = [_in_order(case, measured)]
     for hero in case.program.heroes:
         knot = case.structure.trigger_knot(hero.id)
         if knot is None or knot == hero.sketch.knots[-1]:
@@ -60,6 +60,19 @@ def interaction_facts(case: Case, measured: Measured) -> dict[str, Any]:
             "max_deviation_mpss": float(np.max(spread)) if len(spread) else 0.0,
         }
     return facts
+
+
+def _in_order(case: Case, measured: Measured) -> Condition:
+    """Judge that what a sketch has one after another came so; what never came is judged elsewhere."""
+    worst_s, whose = 0.0, ""
+    for actor in case.program.actors:
+        known = [measured.moments.knots.get((actor.id, knot), np.inf) for knot in actor.sketch.knots]
+        times = np.array([time_s for time_s in known if np.isfinite(time_s)], dtype=np.float64)
+        late_s = float(np.max(np.maximum.accumulate(times) - times, initial=0.0))
+        if late_s > worst_s:
+            worst_s, whose = late_s, f" (not what {called(actor.name)} does)"
+    text = f"what everybody does comes in the order in which it is told{whose}"
+    return bounded("order_of_moments", "outcome", text, required=0.0, measured=worst_s, error=worst_s, dimension="time")
 
 
 def _beginning(case: Case, measured: Measured, hero: Actor, kind: PieceKind) -> Iterator[Condition]:

@@ -145,10 +145,37 @@ def _groups(case: Case) -> list[Group]:
     return sorted({frozenset(group) for group in groups}, key=lambda group: (group not in triggers, sorted(group)))
 
 
+def between(
+    case: Case, group: Group, knots: Mapping[KnotKey, Values], free: Group = frozenset(), follows: Group = frozenset()
+) -> tuple[float, float]:
+    """Return from when to when a group of knots may have come: after and before what is known of the same sketches.
+
+    Parameters
+    ----------
+    free
+        Knots that may have come at other times than these.
+    follows
+        Knots that, where they come later, come later still if the group does.
+    """
+    low, high = case.start_s, case.end_s
+    for actor, knot in group:
+        names = case.program.actor(actor).sketch.knots
+        for index, other in enumerate(names):
+            time_s = float(np.max(knots.get((actor, other), np.inf)))
+            if other == knot or (actor, other) in free or not np.isfinite(time_s):
+                continue
+            if index < names.index(knot):
+                low = max(low, time_s)
+            elif (actor, other) not in follows:
+                high = min(high, time_s)
+    return low, high
+
+
 def _best_instant(case: Case, group: Group, knots: dict[KnotKey, float]) -> tuple[float, bool] | None:
     """Return the instant at which what the program says of it holds best, and whether it holds at no other."""
     parts = sides_of(case, group, set(knots))
-    grid = case.timelines[0].instants(case.start_s, case.end_s, parts=2)
+    low, high = between(case, group, knots)
+    grid = case.timelines[0].instants(low, max(low, high), parts=2)
 
     def score(time_s: FloatArray) -> FloatArray:
         moments = Moments({**knots, **dict.fromkeys(group, time_s)})

@@ -17,7 +17,7 @@ from scenewright.judge.conditions import program_conditions
 from scenewright.judge.formulas import miss_of
 from scenewright.judge.instants import minima
 from scenewright.judge.interaction import interaction_conditions
-from scenewright.judge.knots import Group, Measured, best_instants, conjuncts, measure, visible_times
+from scenewright.judge.knots import Group, Measured, best_instants, between, conjuncts, measure, visible_times
 from scenewright.judge.terms import Moments
 from scenewright.judge.tolerance import LOOSE, TIGHT, FloatArray, normalised
 from scenewright.program.expressions import Compare, PieceRef, State, walk
@@ -47,7 +47,8 @@ def measured_at_best(case: Case) -> Measured:
         if not _concerned(case, amiss, group):
             continue
         follows = frozenset[KnotKey]().union(*first.visible) - told.keys()
-        low, high = _between(case, found, group, frozenset[KnotKey]().union(*free), follows)
+        others = frozenset[KnotKey]().union(*free)
+        low, high = between(case, group, found.moments.knots, others, follows)
         for time_s in _candidates(case, found, group, low, high, group in first.visible):
             if not _concerned(case, amiss, group):
                 break
@@ -91,25 +92,6 @@ def _candidates(
         return [time_s for key in group for time_s in visible_times(case, key, low, high)]
     likely = _best_of_each(case, measured.moments.knots, group, low, high)
     return dict.fromkeys([*likely, *np.linspace(low, high, _TRIED).tolist()])
-
-
-def _between(case: Case, measured: Measured, group: Group, free: Group, follows: Group) -> tuple[float, float]:
-    """Return between which knots that are tied to a moment those of a group lie.
-
-    Later ones that are looked for from these on, since something visible ties them, come after wherever these are.
-    """
-    low, high = case.start_s, case.end_s
-    for actor, knot in group:
-        knots = case.program.actor(actor).sketch.knots
-        for index, other in enumerate(knots):
-            time_s = float(np.max(measured.moments.knots.get((actor, other), np.inf)))
-            if other == knot or (actor, other) in free or not np.isfinite(time_s):
-                continue
-            if index < knots.index(knot):
-                low = max(low, time_s)
-            elif (actor, other) not in follows:
-                high = min(high, time_s)
-    return low, high
 
 
 def _best_of_each(

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -69,6 +70,7 @@ class Problem:
         self._legs: dict[int, list[Leg]] = {}
         self._nodes: dict[int, dict[int, int]] = {}  # by hero: which leg begins at an instant
         self.moments = [self._moment(instant) for instant in range(len(asked.times))]
+        self._ego_moments = [self.moments[asked.knot(EGO, name)] for name in asked.scene.program.ego.sketch.knots]
         self._span: dict[int, range] = {}  # by hero: the unknowns that are its alone
         for hero in asked.scene.program.heroes:
             drive = now.heroes.get(hero.id)
@@ -281,12 +283,12 @@ class Problem:
         return {number: float(z[unknown]) for number, unknown in self._others.items()}
 
     def ordered(self, z: Array) -> Array:
-        """Return values within their bounds in which every hero's knots come one after another."""
+        """Return values within their bounds in which everybody's knots come one after another."""
         z = np.clip(z, self.low, self.high)
-        for hero in self.asked.scene.program.heroes:
+        for actor in self.asked.scene.program.actors:
             latest = -np.inf
-            for name in hero.sketch.knots:
-                moment = self.moments[self.asked.knot(hero.id, name)]
+            for name in actor.sketch.knots:
+                moment = self.moments[self.asked.knot(actor.id, name)]
                 if moment.unknown is not None:
                     z[moment.unknown] = max(z[moment.unknown], latest + _LEAST_S - moment.constant_s)
                 latest = max(latest, moment.value(z))
@@ -335,6 +337,10 @@ class Problem:
             moment = self.moments[instant]
             if moment.unknown is not None:
                 costs.add(moment.value(z) - planned_s, moment.slope(self.size), self.asked.wanted.punctual_weight)
+        for first, second in pairwise(self._ego_moments):  # heroes' are apart by what pieces last
+            slope = first.slope(self.size) - second.slope(self.size)
+            if np.any(slope):
+                bounds.add(first.value(z) - second.value(z), slope, FIRM * self.asked.wanted.price)
         for hero, shot in shots.items():
             actor, own = self.asked.scene.program.actor(hero), self._own[hero]
             costs.by = bounds.by = own.columns if len(own.columns) < self.size else None

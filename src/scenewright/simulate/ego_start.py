@@ -13,11 +13,12 @@ from dataclasses import dataclass, replace
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
 from scenewright.simulate.vehicles import EgoVehicle
-from scenewright.solve.arrival import LinearCondition
+from scenewright.solve.arrival import LinearCondition, ego_knots_between_s
 from scenewright.solve.limits import MOVING_MPS, Limits
 
 _RUN_UP_M = 90.0
-_LEAD_S = 8.0
+_LEAD_S = 8.0  # before it comes to its first place, where the program does not say when that is
+_TOLD_S, _SHIFTS = 1e-6, 4  # of a start, until an ego comes to its place when it is told to
 _STEP_S = 0.05
 _SLOWEST_MPS = 0.5
 # Of the natural speed, for an ego whose speed the orchestrator may choose: natural first.
@@ -38,6 +39,62 @@ class EgoFirstState:
     last_resort: bool = False
 
 
+@dataclass(frozen=True, slots=True)
+class _Way:
+    """What the program says of the ego's way.
+
+    Attributes
+    ----------
+    begins
+        Where it begins; None where that is free.
+    comes
+        Where it comes to first, later; None where that is not told.
+    lead_s
+        How long before that it begins; `is_told` where the program says so.
+    middle_m
+        Where it is to be after so long if nothing is told.
+    """
+
+    begins: LinearCondition | None
+    comes: LinearCondition | None
+    lead_s: float
+    is_told: bool
+    middle_m: float
+
+    @classmethod
+    def of(cls, scene: Scene, conditions: tuple[LinearCondition, ...]) -> _Way:
+        """Read it off a program's conditions."""
+        first, landmarks = scene.program.ego.sketch.knots[0], scene.landmarks_m[EGO]
+        alone = [c for c in conditions if set(c.weights) == {EGO} and c.weights[EGO][0]]
+        begins = next((c for c in alone if c.moments == {(EGO, first)}), None)
+        comes = next((c for c in alone if (EGO, first) not in c.moments), None)
+        least_s, most_s = 0.0, math.inf
+        if comes is not None:
+            least_s, most_s = ego_knots_between_s(scene)[next(name for who, name in comes.moments if who == EGO)]
+        lead_s, is_told = min(max(_LEAD_S, least_s), most_s), most_s - least_s < _TOLD_S
+        return cls(begins, comes, lead_s, is_told, landmarks.get("intersection", 0.5 * landmarks["route_end"]))
+
+    def start_m(self, speed_mps: float) -> float:
+        """Return where an ego of this speed starts: as the program says, else so that it comes to its place in time."""
+        if self.begins is not None:
+            return self.begins.place_m(EGO, speed_mps)
+        there_m = self.middle_m if self.comes is None else self.comes.place_m(EGO, speed_mps)
+        return max(1.0, there_m - self.lead_s * speed_mps)
+
+    def on_time(self, ego: EgoVehicle, start: EgoFirstState) -> EgoFirstState:
+        """Return a start from which the policy, alone on the road, comes to its place when the program says."""
+        if self.begins is not None or self.comes is None or not self.is_told:
+            return start
+        for _ in range(_SHIFTS):
+            ego.reset(start.s_m, start.speed_mps)
+            steps = max(1, round(self.lead_s / _STEP_S))
+            for step in range(steps):
+                ego.advance(ego.decide(step * _STEP_S, (), _STEP_S), self.lead_s / steps)
+            late_m = self.comes.place_m(EGO, ego.state.speed_mps) - ego.state.s_m
+            start = replace(start, s_m=max(0.0, start.s_m + late_m))
+        return start
+
+
 def ego_starts(
     scene: Scene, ego: EgoVehicle, limits: Limits, conditions: tuple[LinearCondition, ...]
 ) -> Iterator[EgoFirstState]:
@@ -46,7 +103,8 @@ def ego_starts(
     Where the policy leaves its speed to the orchestrator (``constant``), natural speeds first. Else what the policy
     holds by itself, then slower states by choice, from which it will speed up.
     """
-    for start in _possible_starts(scene, ego, limits, conditions):
+    way = _Way.of(scene, conditions)
+    for start in (way.on_time(ego, start) for start in _possible_starts(scene, ego, limits, conditions, way)):
         if not _is_past_something(scene, conditions, start):
             yield start
 
@@ -62,32 +120,31 @@ def _is_past_something(scene: Scene, conditions: tuple[LinearCondition, ...], st
 
 
 def _possible_starts(
-    scene: Scene, ego: EgoVehicle, limits: Limits, conditions: tuple[LinearCondition, ...]
+    scene: Scene, ego: EgoVehicle, limits: Limits, conditions: tuple[LinearCondition, ...], way: _Way
 ) -> Iterator[EgoFirstState]:
     """Yield states that meet the conditions at the ego's first knot, wherever that leads."""
     first_knot = scene.program.ego.sketch.knots[0]
     initial = [c for c in conditions if c.moments == {(EGO, first_knot)} and set(c.weights) == {EGO}]
     speed_given = next((c for c in initial if c.weights[EGO][0] == 0.0), None)
-    place = next((c for c in initial if c.weights[EGO][0] != 0.0), None)
 
     def driven(speed_mps: float) -> EgoFirstState:
         """Return the state of one that drives on from there by itself."""
-        s_m = _position(scene, place, speed_mps, conditions)
+        s_m = way.start_m(speed_mps)
         return EgoFirstState(s_m, speed_mps, _first_acceleration(ego, s_m, speed_mps))
 
     if speed_given is not None:
         yield driven(-speed_given.constant / speed_given.weights[EGO][1])
         return
-    guess = _position(scene, place, limits.natural_turn_speed_mps, conditions)
+    guess = way.start_m(limits.natural_turn_speed_mps)
     preferred = ego.policy.preferred_speed_mps(ego.start_at(max(0.0, guess), limits.natural_approach_speed_mps))
     envelope = ego.policy.envelope
     if preferred is None and envelope is not None and envelope.holds_speed:
         fastest = min(limits.turn_speed_max_mps, limits.approach_speed_max_mps)
         for share in _SPEED_SHARES:
             speed = max(min(share * limits.natural_turn_speed_mps, fastest), MOVING_MPS)
-            yield EgoFirstState(_position(scene, place, speed, conditions), speed)
+            yield EgoFirstState(way.start_m(speed), speed)
         return
-    steady = _steady(scene, ego, place, conditions, preferred or limits.natural_approach_speed_mps)
+    steady = _steady(ego, way, preferred or limits.natural_approach_speed_mps)
     # A policy with moods begins a run in its first one, whatever mood it arrived in.
     yield replace(steady, accel_mpss=_first_acceleration(ego, steady.s_m, steady.speed_mps))
     if envelope is not None and envelope.holds_speed:
@@ -96,35 +153,10 @@ def _possible_starts(
         yield driven(max(share * steady.speed_mps, MOVING_MPS))
 
 
-def _position(
-    scene: Scene, place: LinearCondition | None, speed_mps: float, conditions: tuple[LinearCondition, ...]
-) -> float:
-    """Return where the ego starts at `speed_mps`: as the program says, else so that its trigger comes after a while."""
-    if place is not None:
-        per_metre, per_speed = place.weights[EGO]
-        return -(place.constant + per_speed * speed_mps) / per_metre
-    first_knot = scene.program.ego.sketch.knots[0]
-    for condition in conditions:
-        if set(condition.weights) == {EGO} and (EGO, first_knot) not in condition.moments:
-            per_metre, per_speed = condition.weights[EGO]
-            if per_metre:
-                there = -(condition.constant + per_speed * speed_mps) / per_metre
-                return max(1.0, there - _LEAD_S * speed_mps)
-    landmarks = scene.landmarks_m[EGO]
-    target = landmarks.get("intersection", 0.5 * landmarks["route_end"])
-    return max(1.0, target - _LEAD_S * speed_mps)
-
-
-def _steady(
-    scene: Scene,
-    ego: EgoVehicle,
-    place: LinearCondition | None,
-    conditions: tuple[LinearCondition, ...],
-    speed_mps: float,
-) -> EgoFirstState:
-    """Let the policy drive alone towards its first place and take the state in which it gets there."""
-    target = _position(scene, place, speed_mps, conditions)
-    there = place or LinearCondition("", frozenset(), -target, {EGO: (1.0, 0.0)})
+def _steady(ego: EgoVehicle, way: _Way, speed_mps: float) -> EgoFirstState:
+    """Let the policy drive alone towards where it is to start and take the state in which it gets there."""
+    target = way.start_m(speed_mps)
+    there = way.begins or LinearCondition("", frozenset(), -target, {EGO: (1.0, 0.0)})
     per_metre, per_speed = there.weights[EGO]
     run_up = min(3 * _RUN_UP_M if per_speed else _RUN_UP_M, target - 1.0)
     if run_up < 1.0:
@@ -146,7 +178,7 @@ def _steady(
             speed = last_mps + share * (ego.state.speed_mps - last_mps)
             if speed < _SLOWEST_MPS:
                 break
-            return EgoFirstState(_position(scene, there, speed, conditions), speed, ego.state.accel_mps2)
+            return EgoFirstState(there.place_m(EGO, speed), speed, ego.state.accel_mps2)
         before = after
     return EgoFirstState(target, speed_mps)
 

@@ -19,6 +19,7 @@ from scenewright.roads.grounding import Scene
 from scenewright.solve.limits import Limits
 from scenewright.solve.proofs.events import EgoBounds, Events
 from scenewright.solve.proofs.lowering import Lowering
+from scenewright.solve.proofs.order import least_differences
 from scenewright.solve.proofs.polynomials import ZERO, Monomial, Polynomial, atoms
 from scenewright.solve.tolerances import TIGHT
 
@@ -51,6 +52,11 @@ class LinearCondition:
         for actor, (per_metre, per_speed) in self.weights.items():
             total += per_metre * states[actor][0] + per_speed * states[actor][1]
         return total
+
+    def place_m(self, actor: int, speed_mps: float) -> float:
+        """Return where `actor`, which it is about alone, is to be at a speed."""
+        per_metre, per_speed = self.weights[actor]
+        return -(self.constant + per_speed * speed_mps) / per_metre
 
     def given(self, actor: int, s_m: float, speed_mps: float) -> LinearCondition:
         """Return the condition on the others where `actor` is in a known state."""
@@ -110,6 +116,15 @@ def linear_conditions(scene: Scene, structure: Structure) -> tuple[LinearConditi
             constant = float(equality.terms.get((), ZERO))
             found.append(LinearCondition(constraint.id, moments, constant, weights))
     return tuple(found)
+
+
+def ego_knots_between_s(scene: Scene) -> dict[str, tuple[float, float]]:
+    """Return how long after the start each knot of the ego's comes at least, and at most, as far as times are told."""
+    events = Events(scene, {actor.id: _ANYBODY for actor in scene.program.actors}, EgoBounds())
+    formulas = [each.formula for each in Lowering(events).lower(scene.program.constraints)]
+    least, begins = least_differences(events, formulas), events.start
+    knots = {name: events.knot(EGO, name) for name in scene.program.ego.sketch.knots}
+    return {name: (float(least[begins, knot]), -float(least[knot, begins])) for name, knot in knots.items()}
 
 
 def _weights(events: Events, left: Polynomial) -> dict[int, tuple[float, float]] | None:

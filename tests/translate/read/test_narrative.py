@@ -39,6 +39,9 @@ def test_two_heroes_at_moments_of_the_ego_whose_order_is_not_said() -> None:
     either, later = question.alternatives
     assert [len(read(text, {question.slot: answer}).ego) for answer in (either, later)] == [1, 2]
     assert not read(f"{text} In the ego's order: the truck begins to brake.").questions
+    for word in ("Later", "Then", "After that", "Afterwards"):
+        told = read(text.replace("When the ego drives", f"{word}, when the ego drives"))
+        assert (len(told.ego), told.questions) == (2, ()), word
 
 
 def test_deeds_at_the_moment_that_was_told() -> None:

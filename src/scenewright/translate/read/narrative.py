@@ -45,6 +45,7 @@ class Narrative(Cast):
 
     moments: list[st.Moment] = field(default_factory=lambda: [st.Moment()])
     ego: tuple[int, ...] | None = None  # the moments that it comes through, where a text lists them
+    later: set[int] = field(default_factory=set)  # moments that a text tells with "then" or "later"
     doings: list[Doing] = field(default_factory=list)
     orders: list[st.Order] = field(default_factory=list)
     holds: list[st.Hold] = field(default_factory=list)
@@ -82,7 +83,9 @@ class Narrative(Cast):
         return replace(story, ego=ego, questions=tuple(self.questions))
 
     def _ego_comes(self, moment: int) -> bool:
-        """Ask whether the ego comes through a moment after those that were told before."""
+        """Ask whether the ego comes through a moment after those told before, unless a word said that it does."""
+        if moment in self.later:
+            return True
         quote = self.moments[moment].quote or self.quote
         later, either = "it comes after the ego's moments that were told before", "it may come before or after them"
         asked = f"How does this moment lie to the ego's others: {quote.text}"

@@ -69,7 +69,9 @@ class _Sentence:
             self._hold(how)
         elif self.chunks:
             self._take_leads()
+            known, is_later = len(self.story.moments), bool(self.leads & {"then", "later"})
             self._cut()
+            self.story.later |= {*range(known, len(self.story.moments))} if is_later else set()
 
     def _take_leads(self) -> None:
         """Take the words that say when a sentence is, at its front or behind its subject: ``then``, ``initially``."""
