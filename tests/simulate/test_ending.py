@@ -69,3 +69,9 @@ def test_a_run_ends_no_sooner_than_a_hero_is_at_the_very_end_of_its_road() -> No
     trigger = "A0(t1) == A1(t1)\nA0x(t1) == conflict_point - 40\nA1x(t1) == conflict_point - 20\nA1x(t2) == route_end\n"
     result = orchestrate(Request(program("E, N", "t0, go, t1, acc, t2", trigger), ego="constant", takes=1))
     assert result.status == "success"
+
+
+def test_a_run_does_not_end_before_a_moving_ego_is_at_the_end_of_its_road() -> None:
+    trigger = "A0(t1) == A1(t1)\nA0x(t1) == route_end\nA1x(t1) == conflict_point - 30\nA1v(t2) == 0\n"
+    result = orchestrate(Request(program("E, N", "t0, go, t1, dec, t2", trigger), ego="idm", takes=1))
+    assert result.status == "success"

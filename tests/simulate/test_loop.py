@@ -6,12 +6,14 @@ import numpy as np
 import pytest
 
 from scenewright.judge.tolerance import TIGHT
+from scenewright.orchestrate import orchestrate
 from scenewright.plan.planner import GOOD
 from scenewright.program.types import PieceKind
+from scenewright.request import Request
 from scenewright.simulate.hindsight import ego_left_no_room
 from scenewright.simulate.loop import Run
 from scenewright.solve.limits import ACCEL_MAX_MPSS, BRAKE_MAX_MPSS
-from stories import HERO, STEP_S, STORIES, TICK_S, Scripted, Stage, driven
+from stories import HERO, STEP_S, STORIES, TICK_S, Scripted, Stage, driven, program
 
 TABLE = [
     ("yields, distance", "constant", 0),
@@ -172,3 +174,24 @@ def test_hero_that_stands_decides_anew_when_to_go() -> None:
         going = [r.status for r in run.replans if r.time_s > knots["t3"] + TICK_S]
         assert "frozen" not in standing
         assert set(going) == {"frozen"}
+
+
+@pytest.mark.parametrize(
+    ("pieces", "then"),
+    [
+        ("dec, t2, go, t3, acc, t4", "A1v(t2) == 3\nA1(t3) - A1(t2) == 3\nA1a(acc) == 1\nA1v(t4) == 7"),
+        (
+            "dec, t2, go, t3, stop, t4, acc, t5",
+            "A1v(t2) == 4\nA1v(t3) == 0\nA1x(t3) == conflict_point - 7\nA1v(t5) == 5",
+        ),
+    ],
+)
+def test_what_follows_on_the_way_is_seen_for_what_it_is_and_takes_no_longer_than_it_has_to(
+    pieces: str, then: str
+) -> None:
+    trigger = "A0(t1) == A1(t1)\nA0x(t1) == conflict_point - 60\nA1x(t1) == conflict_point - 45\n"
+    text = program("E, N", f"t0, go, t1, {pieces}", f"{trigger}{then}\n")
+    result = orchestrate(Request(text, ego="constant", takes=1))
+    assert result.status == "success"
+    assert result.run is not None
+    assert result.run.trace.duration_s < 40.0

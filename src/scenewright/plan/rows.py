@@ -187,6 +187,7 @@ class HeroRows:
                 # Braking that pauses is seen to begin anew; who has sped up may well go on evenly.
                 pauses = price if leg.kind is PieceKind.DEC else self.asked.wanted.least_rate_price
                 self.bounds.add_all(short, self._units(leg.accels, -sense), pauses)
+                self._not_before(number, sense)
             self._lasting(leg, stands_next=legs[number + 1].kind is PieceKind.STOP and number + 1 < len(legs) - 1)
 
     def _lasting(self, leg: Leg, *, stands_next: bool) -> None:
@@ -203,7 +204,8 @@ class HeroRows:
         self.bounds.add((wanted.shortest_stand_s if stands else wanted.shortest_s) - lasts, -slope, wanted.price)
         if leg.first.unknown is None and leg.last.unknown is not None:
             self.bounds.add(self.now.time_s + SOONEST_S - last.value(z), -slope, firm)
-        if instants[1] != asked.trigger(self.hero.id) and (stands or not stands_next):
+        comes_to_stand = stands_next and leg.kind is PieceKind.DEC  # how long that takes is in how hard it brakes
+        if instants[1] != asked.trigger(self.hero.id) and not comes_to_stand:
             usual_s = wanted.stands_s if stands else wanted.lasts_s
             self.costs.add(lasts - usual_s, slope, wanted.stands_weight if stands else wanted.lasts_weight)
 
@@ -214,7 +216,7 @@ class HeroRows:
         if number is None or number >= len(shot.legs) - 1:
             return
         begins = shot.legs[number]
-        node, rate = shot.first_node[number], wanted.price / _TIGHT_RATE
+        node = shot.first_node[number]
         _, v, _, d_v = shot.at_node(node)
         if node and PieceKind.STOP not in (begins.kind, shot.legs[number - 1].kind):
             natural_mps = wanted.natural_share * self.asked.limits[self.hero.id].natural_approach_speed_mps
@@ -225,13 +227,19 @@ class HeroRows:
         if sense is None:
             return
         self._begins(number, sense)
-        settled_s = shot.time[node] - wanted.settled_s - _ROUNDING_S
-        for before, leg in enumerate(shot.legs[:number]):
-            if leg.kind is PieceKind.GO:  # what is to begin at the trigger is not plainly done before it
-                late = shot.time[shot.first_node[before] :][: leg.cells + 1] > settled_s
-                most = self._faint(number) * np.where(late, wanted.settled_mpss, wanted.early_mpss)
-                prices = np.where(late, rate, wanted.early_price)
-                self.bounds.add_all(sense * shot.z[list(leg.accels)] - most, self._units(leg.accels, sense), prices)
+
+    def _not_before(self, number: int, sense: float) -> None:
+        """Add that what begins with a leg is not plainly done before it, and hardly at all just before it."""
+        wanted, shot = self.asked.wanted, self.shot
+        settled_s = shot.time[shot.first_node[number]] - wanted.settled_s - _ROUNDING_S
+        for before in range(number - 1, -1, -1):
+            leg = shot.legs[before]
+            if leg.kind is not PieceKind.GO or self._sets_off(before):
+                break
+            late = shot.time[shot.first_node[before] :][: leg.cells + 1] > settled_s
+            most = self._faint(number) * np.where(late, wanted.settled_mpss, wanted.early_mpss)
+            prices = np.where(late, wanted.price / _TIGHT_RATE, wanted.early_price)
+            self.bounds.add_all(sense * shot.z[list(leg.accels)] - most, self._units(leg.accels, sense), prices)
 
     def _begins(self, number: int, sense: float) -> None:
         """Add that a leg is visibly begun: by speeding up (1) or slowing down (-1) from its first moment on."""

@@ -25,7 +25,7 @@ _SEEN_S = 0.5  # beyond what a stand has to last, for it to be seen to
 _WAIT_FOR_EGO_S = 10.0
 _STALLED_S, STANDS_MPS = 20.0, 0.1
 _MOVES_MPS = 0.5
-ROUTE_END_M = 3.0  # who is so near to the end of its road has come to it
+ROUTE_END_M = 3.0  # who hardly moves so near to the end of its road has come to it
 
 
 @dataclass(slots=True)
@@ -49,7 +49,7 @@ class Ending:
         if ego.speed_mps > STANDS_MPS:
             self._ego_moved_s = time_s
         end_m = route.landmarks["route_end"]
-        at_end = ego.s_m >= end_m - ROUTE_END_M
+        at_end = ego.s_m >= end_m - (ROUTE_END_M if ego.speed_mps < _MOVES_MPS else 0.0)
         waits = any(plans[hero].knot_times_s.get(knot, 0.0) > time_s for hero, knot in self._meets.items())
         if time_s >= LONGEST_RUN_S or time_s - self._ego_moved_s > _STALLED_S or (at_end and waits):
             return True
