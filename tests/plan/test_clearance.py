@@ -27,7 +27,8 @@ def scene_with(distance: str) -> Scene:
 
 def clearance_of(scene: Scene) -> Clearance | None:
     structure = read_structure(scene.program)
-    return Clearance.of(scene, structure, linear_conditions(scene, structure), scene.program.heroes[0])
+    conditions = linear_conditions(scene, structure, with_bounds=True)
+    return Clearance.of(scene, structure, conditions, scene.program.heroes[0])
 
 
 @pytest.mark.parametrize(
@@ -40,6 +41,8 @@ def clearance_of(scene: Scene) -> Clearance | None:
         ("headway(A0, A1, t1) == 2", True),
         ("ttc(A0, A1, t1) == 4", True),
         ("ttc(A1, A0, t1) == 4", False),
+        ("headway(A0, A1, t1) < 1.5", True),
+        ("gap(A0, A1, t1) >= -30", False),
         ("A1x(t1) - A0x(t1) == 15", True),
         ("A0x(t1) - A1x(t1) == 15", False),
     ],
@@ -48,6 +51,10 @@ def test_the_distance_tells_who_is_ahead(distance: str, ahead: bool) -> None:
     clearance = clearance_of(scene_with(distance))
     assert clearance is not None
     assert clearance.ahead is ahead
+
+
+def test_that_one_is_ahead_at_all_tells_no_distance() -> None:
+    assert clearance_of(scene_with("gap(A0, A1, t0) > 0")) is None
 
 
 @pytest.mark.parametrize(("ego_m", "hero_m", "ahead"), [(100, 120, True), (120, 100, False), (100, 103, None)])

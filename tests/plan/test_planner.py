@@ -11,7 +11,7 @@ from situations import HERO, planner_of, scene_of
 from scenarios import BEHIND_ITSELF, FEASIBLE, TOO_FAST, YIELDS, Example, limits_of
 from scenewright.judge.tolerance import TIGHT, dimension_of
 from scenewright.motion.profile import Profile, chain
-from scenewright.orchestrate import begin
+from scenewright.orchestrate import begin, orchestrate
 from scenewright.plan.planner import GOOD, Attempt, Planner
 from scenewright.program.evaluate import violation
 from scenewright.program.types import EGO
@@ -338,3 +338,13 @@ A2(t2) - A2(t1) == 3
     times = planned[2].plan.profiles[EGO].knot_times_s
     assert times["t1"] <= times["t2"] + 1e-6
     assert planned[2].is_good
+
+
+@pytest.mark.parametrize("distance", ["headway(A0, A1, t1) < 1.5", "ttc(A0, A1, t1) <= 3"])
+def test_a_bound_on_the_distance_to_an_ego_that_follows_is_met_in_seconds(distance: str) -> None:
+    """It is foreseen to follow, as where the distance is told: else the trigger is put off, tick by tick."""
+    rest = f"gap(A0, A1, t0) > 0\nA0(t1) == A1(t1)\n{distance}\nA1a(dec) == -3\nA1v(t2) == 0"
+    result = orchestrate(Request(program("W", "t0, go, t1, dec, t2", rest), ego="idm", takes=1))
+    assert result.status == "success"
+    assert result.verdict is not None
+    assert result.verdict.facts["trigger_time_s"]["hero"] < 12.0

@@ -51,7 +51,7 @@ class Clearance:
                 if set(condition.weights) != {EGO, hero.id}:
                     continue
                 gap_m = _gap_m(condition, hero.id, offset_m)
-                if gap_m is not None:
+                if gap_m:  # that one is ahead at all, a bound of 0, says nothing of the distance
                     return cls(gap_m > 0.0, offset_m, instant == trigger)
             places_m = {
                 actor: -condition.constant / metre

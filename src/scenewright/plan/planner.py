@@ -27,7 +27,7 @@ from scenewright.plan.triggers import SHORTEST_LEAD_S, TriggerTimes
 from scenewright.program.structure import Role, Structure, knots_of
 from scenewright.program.types import EGO, Actor, PieceKind
 from scenewright.roads.grounding import Scene
-from scenewright.solve.arrival import LinearCondition
+from scenewright.solve.arrival import LinearCondition, linear_conditions
 from scenewright.solve.limits import Limits
 from scenewright.solve.plan import Plan
 
@@ -135,7 +135,8 @@ class Planner:
         self._asked = Asked(self.scene, self.structure, self.limits)
         self._times = TriggerTimes(self.scene, self.structure, self.conditions)
         cruise_mps = self.limits[EGO].natural_approach_speed_mps
-        self._ego = Foresight(self.scene, self.structure, self.conditions, predictor, cruise_mps)
+        told = linear_conditions(self.scene, self.structure, with_bounds=True)
+        self._ego = Foresight(self.scene, self.structure, told, predictor, cruise_mps)
 
     # -- the first plan -----------------------------------------------------------------------------------------------
     def begin(self, ego: EgoSample) -> Attempt:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from scenewright.motion.profile import Profile
 from scenewright.program.expressions import Compare
@@ -94,22 +94,25 @@ class LinearCondition:
         return max(0.0, min(fitting)) if fitting else None
 
 
-def linear_conditions(scene: Scene, structure: Structure) -> tuple[LinearCondition, ...]:
-    """Return the program's equalities over states at one moment that are linear in positions and speeds."""
+def linear_conditions(scene: Scene, structure: Structure, *, with_bounds: bool = False) -> tuple[LinearCondition, ...]:
+    """Return the program's equalities over states at one moment that are linear in positions and speeds.
+
+    Of a bound, where these are asked for too, it is where it begins to hold.
+    """
     events = Events(scene, {actor.id: _ANYBODY for actor in scene.program.actors}, EgoBounds())
     lowering = Lowering(events)
     start = frozenset((actor.id, actor.sketch.knots[0]) for actor in scene.program.actors)
     found: list[LinearCondition] = []
     for constraint in scene.program.constraints:
         formula = constraint.formula
-        if not isinstance(formula, Compare) or formula.operator != "==":
+        if not isinstance(formula, Compare) or not (with_bounds or formula.operator == "=="):
             continue
         moments = frozenset(knots_of(formula))
         if not moments or not (
             len(moments) == 1 or any(moments <= instant for instant in (start, *structure.instants))
         ):
             continue
-        (lowered,) = lowering.lower((constraint,))
+        (lowered,) = lowering.lower((replace(constraint, formula=replace(formula, operator="==")),))
         equality = next((atom.left for atom in atoms(lowered.formula) if atom.relation == "=="), None)
         weights = None if equality is None else _weights(events, equality)
         if equality is not None and weights:
