@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
+
+from scenewright.roads import load_map
 
 from .conftest import FOREIGN, OURS, broken, map_source, refused
 
@@ -58,3 +61,15 @@ def test_files_that_broke_a_reader_once_are_explained(name: str) -> None:
     error = refused(map_source(f"malformed/{name}"))
     assert error.place is not None
     assert error.place.line is not None
+
+
+@pytest.mark.parametrize(("kind", "limit_kmph"), [("motorway", 130), ("rural", 100), ("town", None)])
+def test_a_road_that_tells_no_limit_has_that_of_its_kind(tmp_path: Path, kind: str, limit_kmph: int | None) -> None:
+    source = tmp_path / "kind.xodr"
+    text = re.sub(r'<type ([^>]*)type="[^"]*">\s*<speed [^>]*/>', rf'<type \1type="{kind}">', OURS)
+    assert f'type="{kind}"' in text
+    source.write_text(text, encoding="utf-8")
+    road_map = load_map(source)
+    limits = {lane.speed_limit_mps for lane in road_map.lanes.values()}
+    assert limits == {None if limit_kmph is None else limit_kmph / 3.6}
+    assert any("no speed limit" in note for note in road_map.notes) == (limit_kmph is not None)

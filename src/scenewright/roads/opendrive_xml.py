@@ -34,6 +34,8 @@ _LONGEST_ROAD_M = 1e5
 _SHORTEST_PIECE_M = 1e-6  # rates of change along anything shorter would overflow
 _LONGEST_LANES_M = 1e7
 _SPEED_UNITS_MPS = {"m/s": 1.0, "km/h": 1.0 / 3.6, "kmh": 1.0 / 3.6, "kph": 1.0 / 3.6, "mph": 0.44704}
+# Where a road tells its type and no limit; other types are taken for roads in town. Chosen, after the usual limits.
+_USUAL_KMPH = {"motorway": 130, "rural": 100}
 _SHAPE_ATTRIBUTES: dict[Shape, tuple[str, ...]] = {
     "line": (),
     "arc": ("curvature",),
@@ -329,6 +331,10 @@ class _FileReader:
         for item in road.findall("type"):
             speed = item.find("speed")
             limit = None if speed is None else self.speed_limit(speed)
+            if speed is None and (usual_kmph := _USUAL_KMPH.get(item.get("type", ""))) is not None:
+                what = f"no speed limit is told on a {item.get('type')} road: {usual_kmph} km/h is taken"
+                self.defects.add(what, f"road {road.get('id')}")
+                limit = usual_kmph / 3.6
             records.append(RoadTypeRecord(self.number(item, "s", 0.0), item.get("type", ""), limit))
         return tuple(sorted(records, key=lambda record: record.start_m))
 

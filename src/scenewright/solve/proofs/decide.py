@@ -43,7 +43,7 @@ _CORE_S = 2.0  # for looking for what clashes among constraints, and then among 
 _SHRINK_S = 0.5  # for each question whether a core does without one of its members
 _RANGES = {
     "time": f"everything happens within {float(LONGEST_S):g} s of the start",
-    "speed": "how fast anybody may be",
+    "speed": "how fast anybody may be: {tops}",
     "place": "where the routes begin and end",
 }
 _WIDER = 1000  # a range so much wider is none
@@ -253,8 +253,15 @@ def _core(question: Question, unknowns: Sequence[Unknown], formulas: Sequence[Na
         wide = (replace(each, low=-_WIDER * each.high, high=_WIDER * each.high) for each in unknowns)
         wider = [new if old.kind == kind else old for old, new in zip(unknowns, wide, strict=True)]
         if refuter.ask(wider, clashing, 0.2).kind == "met":
-            ranges.append(words)
+            ranges.append(words.format(tops=_tops(question)))
     return (*kept, *laws, *ranges)
+
+
+def _tops(question: Question) -> str:
+    """Return between which speeds everybody is."""
+    tops = {question.scene.program.ego.name: question.ego.speed_max_mps}
+    tops |= {hero.name: question.limits[hero.id].speed_max_mps for hero in question.scene.program.heroes}
+    return ", ".join(f"{name} 0 to {top_mps:.4g} m/s" for name, top_mps in tops.items())
 
 
 def _posed(question: Question, kept: Collection[str]) -> tuple[Sequence[Unknown], Sequence[Named]]:
