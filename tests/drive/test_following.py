@@ -50,6 +50,16 @@ def test_follows_a_leader_that_turns_into_the_driveway_and_then_goes_on() -> Non
     assert log.speed_mps[-1] > 12.0
 
 
+@pytest.mark.parametrize("ahead_m", [14.0, 20.0, 30.0])
+@pytest.mark.parametrize("leader_mps", [3.0, 6.0, 10.0])
+def test_follows_a_leader_through_a_junction_as_on_any_road(ahead_m: float, leader_mps: float) -> None:
+    """One that drives ahead on the same way is not taken for one that comes from another road."""
+    leader = Car("hero", THROUGH, 240.0 + ahead_m, leader_mps)
+    log = drive(Idm(), THROUGH, 240.0, leader_mps, [leader], 25.0)
+    assert log.s_m[-1] > 310.0
+    assert min(log.accel_mpss) > -2.5
+
+
 def test_slows_down_for_the_turn_comfortably() -> None:
     log = drive(Idm(), IN_LEFT, 150.0, 13.8, [], 25.0)
     inside = [v for s, v in zip(log.s_m, log.speed_mps, strict=True) if 302.0 <= s <= 324.0]

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import pytest
-from plays import BRAKES, GOES_AFTER, Play
+from plays import BRAKES, GOES_AFTER, YIELDS, Play, failed
 
 from scenewright.judge.judgement import judge
 from scenewright.judge.tolerance import LOOSE, TIGHT
@@ -92,3 +92,12 @@ def test_what_the_run_was_too_short_to_show_is_not_shown() -> None:
     assert (settled.holds_at(TIGHT), settled.holds_at(LOOSE)) == (False, True)
     assert "0.20 s are not seen" in settled.text
     assert judged(soon, "settled_s = 0.3").condition("hero_settled").holds_at(TIGHT)
+
+
+@pytest.mark.parametrize("last", ["stop", "dec"])
+def test_one_that_is_to_stand_on_does_not_have_to_move_off(last: str) -> None:
+    sketch = f"[t0, go, t1, dec, t2, stop, t3, {last}, t4]"
+    stands = replace(YIELDS, text=YIELDS.text.replace("[t0, go, t1, dec, t2]", sketch))
+    assert failed(judge(stands.case()), TIGHT) == set()
+    goes = replace(YIELDS, text=YIELDS.text.replace("[t0, go, t1, dec, t2]", sketch.replace(last + ", t4", "go, t4")))
+    assert "hero_goes_again" in failed(judge(goes.case()), TIGHT)

@@ -126,14 +126,15 @@ class Driver:
             accel = min(accel, self._heed_line(s_m, speed_mps, dt_s))
         interaction = 0.0
         for other in observation.others:
-            neighbour = self._surroundings.neighbour(other, time_s)
+            neighbour, follows = self._surroundings.neighbour(other, time_s), False
             if abs(other.x_m - ego.x_m) + abs(other.y_m - ego.y_m) < _NEAR_M:
                 gap_m = neighbour.gap_ahead_m(other, ego, s_m, time_s)
                 if gap_m is not None and neighbour.lies_across:
                     accel = min(accel, stopping_accel(speed_mps, gap_m - _ACROSS_MARGIN_M, traits.brake_mpss))
                 elif gap_m is not None:
+                    follows = True
                     interaction = min(interaction, self._follow(gap_m, speed_mps, neighbour.speed_along_mps(other)))
-            if traits.lawful:
+            if traits.lawful and not follows:  # whoever is ahead on its own way is not given way to
                 accel = min(accel, self._heed(neighbour, other, s_m, speed_mps, time_s))
         return self.bounded(accel + interaction, speed_mps, dt_s)
 

@@ -374,14 +374,14 @@ def _visible_time(case: Case, key: KnotKey, index: int, after_s: float) -> float
         return np.inf
     before = sketch.pieces[index - 1]
     after = sketch.pieces[index] if index < len(sketch.pieces) else None
+    if after == before or (before, after) == (PieceKind.STOP, PieceKind.DEC):
+        return None  # nothing shows where one gives way to the other
     if before is PieceKind.STOP:
         moved = move_off_after(timeline, after_s, manner)
         return np.inf if moved is None else moved
     if after is PieceKind.STOP:
         rest = rest_after(timeline, after_s, manner)
         return np.inf if rest is None else rest.start_s
-    if after == before:  # both brake, or both speed up: nothing shows where one gives way to the other
-        return None
     if after in SIGN_OF:
         phase = phase_at(timeline, after_s, SIGN_OF[after], manner)
         return np.inf if phase is None else phase.start_s
