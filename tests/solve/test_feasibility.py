@@ -26,6 +26,7 @@ from scenewright.roads.grounding import ground
 from scenewright.solve.feasibility import EgoBounds
 from scenewright.solve.proofs.decide import Decision, Question, decide
 from scenewright.solve.proofs.lowering import MEAN_RATE
+from scenewright.solve.proofs.relaxation import EVEN_RATE
 from scenewright.solve.proofs.witness import Broken
 from scenewright.units import format_fraction, pin
 
@@ -69,6 +70,10 @@ EGO = "ego brakes at 12 m/s^2 at most, speeds up at 8 m/s^2 at most, and is 60 m
             "E, N", "dec", f"{MET}A1v(t1) == 9\nA1a(dec) == -2\nA1v(t2) == 0\nA1(t2) - A1(t1) == 3\n", {MEAN_RATE},
             id="rate",
         ),
+        pytest.param(
+            "E, N", "dec", f"{MET}A1v(t1) == 12\nA1a(dec) == -2\nA1v(t2) == 0\nA1x(t2) - A1x(t1) == 25\n",
+            {MEAN_RATE, EVEN_RATE}, id="rate and way",
+        ),
     ],
 )  # fmt: skip
 def test_a_proof_names_in_plain_words_what_it_takes_for_granted(
@@ -80,6 +85,16 @@ def test_a_proof_names_in_plain_words_what_it_takes_for_granted(
     own = {constraint.id for constraint in scene.program.constraints}
     assert laws <= set(decision.core) - own
     assert set(decision.core) & own
+
+
+@pytest.mark.parametrize(
+    ("way_m", "answers"), [(25, ["infeasible"]), (33, ["feasible", "undecided"]), (36, ["feasible"])]
+)
+def test_how_far_one_rate_leads_is_refuted_only_where_no_ramp_makes_up_for_it(way_m: int, answers: list[str]) -> None:
+    """From 12 m/s to a stand at 2 m/s^2 it is 36 m; harder in one ramp, and less in the other, it is 33 m."""
+    told = f"{MET}A1v(t1) == 12\nA1a(dec) == -2\nA1v(t2) == 0\nA1x(t2) - A1x(t1) == {way_m}\n"
+    scene = ground(parse_program(HERO.format("E, N", "dec") + told), T)
+    assert decide(Question(scene, read_structure(scene.program), limits_of(scene)), 2.0).answer in answers
 
 
 @pytest.mark.parametrize(

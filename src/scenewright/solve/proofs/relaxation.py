@@ -31,8 +31,11 @@ from scenewright.solve.proofs.polynomials import (
     every,
     some,
 )
+from scenewright.solve.tolerances import TIGHT
 
+EVEN_RATE = "a rate that is told of a piece lasts all through it, but for a moment at either end"
 _CERTAIN = 1e-9
+_SHORT_M2 = Fraction(1)  # twice what one may be off in a piece that is too short for more than its mean to be looked at
 
 
 def relaxation(events: Events, narrowings: Sequence[Narrowing], constraints: Sequence[Named]) -> list[Named]:
@@ -42,6 +45,7 @@ def relaxation(events: Events, narrowings: Sequence[Narrowing], constraints: Seq
     least, within = least_differences(events, formulas), places_within(events, formulas)
     narrowings = [each for each in narrowings if not each.up_to_place or _begins_before(each, within)]
     found += _order_of_knots(events)
+    found += [_evenly(events, each) for each in narrowings if each.even]
     for actor in events.scene.program.actors:
         if not (actor.is_ego and events.drive is not None):  # how it drove is a fact
             found += _motion(events, narrowings, actor.id, least)
@@ -60,6 +64,25 @@ def _order_of_knots(events: Events) -> Iterator[Named]:
         for early, late in pairwise(knots):
             formula = compare("<=", events.times[early], events.times[late])
             yield Named(formula, f"the knots of {actor.name} come one after another")
+
+
+def _evenly(events: Events, piece: Narrowing) -> Named:
+    """Return how far somebody comes at one rate, as the judge looks at that: nearly what both speeds tell.
+
+    In its ramps it may be faster or slower by as much as the law lets it, all through by a tight tolerance.
+    """
+    a, b = events.state(piece.actor, piece.first), events.state(piece.actor, piece.last)
+    own = (
+        each.law
+        for each in events.pieces
+        if (each.actor, each.first, each.last) == (piece.actor, piece.first, piece.last)
+    )
+    law, lasts = next(own, events.law_of(piece.actor)), events.times[piece.last] - events.times[piece.first]
+    off, change = (b.place - a.place) * 2 - (a.speed + b.speed) * lasts, b.speed - a.speed
+    roughly, ramps_s = lasts * lasts * TIGHT["acceleration"] + _SHORT_M2, 2 * events.scene.program.manner.ramp_s
+    most = [room * ramps_s + roughly for room in (change - lasts * law.rate_low, lasts * law.rate_high - change)]
+    held = every([compare("<=", one, each) for each in most for one in (off, -off)])
+    return Named(held, EVEN_RATE, (piece.origin,))
 
 
 def _motion(events: Events, narrowings: Sequence[Narrowing], actor: int, least: NDArray[np.float64]) -> Iterator[Named]:
