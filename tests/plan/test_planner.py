@@ -348,3 +348,14 @@ def test_a_bound_on_the_distance_to_an_ego_that_follows_is_met_in_seconds(distan
     assert result.status == "success"
     assert result.verdict is not None
     assert result.verdict.facts["trigger_time_s"]["hero"] < 12.0
+
+
+def test_whoever_begins_behind_the_ego_does_not_tailgate() -> None:
+    rest = "A0(t1) == A1(t1)\nheadway(A1, A0, t1) == 1\nA1v(t1) >= 10\nA1a(dec) == -4\nA1v(t2) == 2"
+    world = begin(Request(program("W", "t0, go, t1, dec, t2", rest), ego="idm"), Stages(None))[0]
+    planned = first_plan(world, world.predictor)
+    assert planned is not None
+    ego, hero = (planned[2].plan.profiles[actor].state(0.0) for actor in (EGO, HERO))
+    room_m = ego[0] - hero[0] - 4.5
+    assert planned[2].is_good
+    assert 0.95 * hero[1] <= room_m < 3.0 * hero[1]

@@ -17,6 +17,7 @@ from scenewright.motion.laws import Law
 from scenewright.plan.asked import Asked
 from scenewright.plan.shooting import Leg, Moment, Shot
 from scenewright.plan.situation import Situation
+from scenewright.program.starts import TAILGATES_S
 from scenewright.program.types import Actor, PieceKind
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
 
@@ -293,6 +294,9 @@ class HeroRows:
         ego = np.array([self.now.ego(time_s)[:2] for time_s in shot.time[nodes].tolist()])
         room_m = side * (shot.s[nodes] + offset_m - ego[:, 0]) - VEHICLE_LENGTH_M - wanted.clear_of_ego_m
         slopes = -side * (shot.d_s[nodes] - ego[:, 1:] * shot.d_time[nodes])
+        if side < 0.0 and self.hero.id not in self.now.heroes:  # whoever begins behind it does not tailgate
+            room_m[0] -= TAILGATES_S * shot.v[0]
+            slopes[0] += TAILGATES_S * shot.d_v[0]
         self.bounds.add_all(-room_m, slopes, wanted.price / _TIGHT_LENGTH, wanted.out_of_way_most)
 
     def _plainly(self, node: int) -> None:
