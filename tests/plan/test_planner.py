@@ -6,6 +6,7 @@ from functools import cache
 
 import numpy as np
 import pytest
+from many_heroes import PROGRAMS
 from situations import HERO, planner_of, scene_of
 
 from scenarios import BEHIND_ITSELF, FEASIBLE, TOO_FAST, YIELDS, Example, limits_of
@@ -359,3 +360,24 @@ def test_whoever_begins_behind_the_ego_does_not_tailgate() -> None:
     room_m = ego[0] - hero[0] - 4.5
     assert planned[2].is_good
     assert 0.95 * hero[1] <= room_m < 3.0 * hero[1]
+
+
+@pytest.mark.parametrize("heroes", [1, 2])
+def test_triggers_of_several_move_on_by_half_a_second_a_tick_until_they_come_soon(heroes: int) -> None:
+    """Where an ego stops for long, plans from far off would take long; with one hero they do not."""
+    planner = planner_of(scene_of(PROGRAMS["crossing"](heroes)))
+    planner.begin((0.0, 150.0, 9.0, 0.0))
+    s_m, before = 150.0, {hero: planner.plan.profiles[hero].knot_times_s["t1"] for hero in range(1, heroes + 1)}
+    moved = []
+    for step in range(1, 101):
+        time_s, speed_mps = 0.02 * step, max(0.0, 9.0 - 0.16 * step)
+        s_m += 0.02 * speed_mps
+        planner.observe((time_s, s_m, speed_mps, -8.0 if speed_mps else 0.0))
+        if step % 5 == 0:
+            planner.tick(time_s)
+            now = {hero: planner.plan.profiles[hero].knot_times_s["t1"] for hero in before}
+            moved += [(now[hero] - then_s, then_s - time_s) for hero, then_s in before.items()]
+            before = now
+    assert max(by_s for by_s, _ in moved) > (1.0 if heroes == 1 else 0.4)
+    if heroes > 1:
+        assert all(by_s <= 0.5 + 1e-6 for by_s, left_s in moved if left_s > 2.0)

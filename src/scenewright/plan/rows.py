@@ -121,18 +121,17 @@ class HeroRows:
     def _comfort(self) -> None:
         """Add what is unpleasant: jerk, and acceleration that nobody asked for."""
         wanted, shot = self.asked.wanted, self.shot
-        drive, first = self.now.heroes.get(self.hero.id), shot.legs[0]
-        if drive is not None and first.accels and drive.begin_s <= self.now.time_s:  # it goes on from what it does now
-            rate = shot.z[[first.accels[0]]] - drive.motion.state(drive.begin_s)[2]
-            self.costs.add_all(rate, self._units(first.accels[:1], 1.0), wanted.change_weight)
-        for number, leg in enumerate(shot.legs):
-            if not leg.accels:
-                continue
-            roots = np.maximum(np.diff(shot.time[shot.first_node[number] :][: leg.cells + 1]), 0.02) ** 0.5
-            one, other = self._units(leg.accels[:-1], 1.0), self._units(leg.accels[1:], 1.0)
-            change, mean = other - one, 0.5 * (one + other)
-            self.costs.add_all(change @ shot.z, change, 1.0 / (roots * wanted.jerk_mpsss))
-            self.costs.add_all(mean @ shot.z - self._usual_rate(number), mean, roots / wanted.accel_mpss)
+        drive, now = self.now.heroes.get(self.hero.id), shot.legs[0].accels[:1]
+        if drive is not None and now and drive.begin_s <= self.now.time_s:  # it goes on from what it does now
+            rate = shot.z[now[0]] - drive.motion.state(drive.begin_s)[2]
+            self.costs.add(rate, self._units(now, 1.0)[0], wanted.change_weight)
+        cells, first, second = shot.driven
+        counts = [len(leg.accels[1:]) for leg in shot.legs]
+        usual = np.repeat([self._usual_rate(number) for number in range(len(counts))], counts)
+        roots = np.maximum(np.diff(shot.time)[cells], 0.02) ** 0.5
+        begin, end, (one, other) = shot.z[first], shot.z[second], np.eye(len(shot.z))[[first, second]]
+        self.costs.add_all(end - begin, other - one, 1.0 / (roots * wanted.jerk_mpsss))
+        self.costs.add_all(0.5 * (begin + end) - usual, 0.5 * (one + other), roots / wanted.accel_mpss)
 
     def _usual_rate(self, number: int) -> float:
         """Return the rate of a leg that is no unpleasantness: what is usual, or what the program asks for."""

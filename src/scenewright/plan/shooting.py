@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +18,7 @@ from scenewright.program.types import PieceKind
 from scenewright.solve.limits import BRAKE_MAX_MPSS
 
 Array = NDArray[np.float64]
+Columns = NDArray[np.intp]
 
 CREEPS_MPS = 0.1  # who is slower is taken to be so fast, to tell when it comes somewhere
 _ROUNDS = 4  # of Newton's steps for that
@@ -83,6 +83,7 @@ class Shot:
     d_s: Array
     d_v: Array
     first_node: list[int]  # of each leg; the last is that behind all legs
+    driven: tuple[Columns, Columns, Columns]  # cells of legs with accelerations, and which they begin and end with
     z: Array
 
     def at_node(self, node: int) -> tuple[float, float, Array, Array]:
@@ -125,12 +126,11 @@ class Shot:
         by_jerk, d_lasts = since**3 / 6.0 / lasts, self.d_time[behind] - self.d_time[node]
         d_place = self.d_s[node] + since[:, None] * self.d_v[node]
         d_place += -speed[:, None] * self.d_time[node] - (by_jerk * jerk)[:, None] * d_lasts
-        for leg, (first, end) in zip(self.legs, pairwise(self.first_node), strict=True):
-            if leg.accels:
-                here, accels = np.flatnonzero((node >= first) & (node < end)), np.array(leg.accels)
-                number = node[here] - first
-                d_place[here, accels[number]] += 0.5 * since[here] ** 2 - by_jerk[here]
-                d_place[here, accels[number + 1]] += by_jerk[here]
+        cells, one, other = self.driven
+        number = np.minimum(np.searchsorted(cells, node), len(cells) - 1)
+        here = np.flatnonzero(cells[number] == node) if len(cells) else node[:0]
+        d_place[here, one[number[here]]] += 0.5 * since[here] ** 2 - by_jerk[here]
+        d_place[here, other[number[here]]] += by_jerk[here]
         return place, speed, d_place
 
     def passes(self, place_m: float) -> tuple[float, float]:
@@ -164,53 +164,52 @@ class Shot:
 
     def _d_accel(self, node: int) -> tuple[Array, Array]:
         da, db = np.zeros(len(self.z)), np.zeros(len(self.z))
-        leg = int(np.searchsorted(self.first_node, node, side="right")) - 1
-        if leg < len(self.legs) and self.legs[leg].accels:
-            k = node - self.first_node[leg]
-            da[self.legs[leg].accels[k]] = 1.0
-            db[self.legs[leg].accels[k + 1]] = 1.0
+        cells, one, other = self.driven
+        da[one[cells == node]] = 1.0
+        db[other[cells == node]] = 1.0
         return da, db
 
 
 def shoot(legs: Sequence[Leg], start: Start, z: Array) -> Shot:
     """Return the motion that the unknowns `z` stand for."""
-    size = len(z)
-    count = sum(leg.cells for leg in legs) + 1
-    time, s, v = np.zeros(count), np.zeros(count), np.zeros(count)
-    accel, after = np.zeros(count), np.zeros(count)
-    d_time, d_s, d_v = np.zeros((count, size)), np.zeros((count, size)), np.zeros((count, size))
+    counts = np.array([leg.cells for leg in legs])
+    first_node = [0, *np.cumsum(counts).tolist()]
+    driven = [leg.accels for leg in legs if leg.accels]
+    cells = np.flatnonzero(np.repeat([bool(leg.accels) for leg in legs], counts))
+    one, other = (np.array([a for each in driven for a in each[k : len(each) - 1 + k]], dtype=np.intp) for k in (0, 1))
+    nodes, size = first_node[-1] + 1, len(z)
+    s, v, accel, after = np.zeros((4, nodes))
+    d_s, d_v = np.zeros((2, nodes, size))
     s[0] = start.s_m if start.place is None else z[start.place]
     v[0] = start.speed_mps if start.speed is None else z[start.speed]
     if start.place is not None:
         d_s[0, start.place] = 1.0
     if start.speed is not None:
         d_v[0, start.speed] = 1.0
-    node, first_node = 0, []
-    for leg in legs:
-        first_node.append(node)
-        begin, lasts = leg.first.value(z), (leg.last.value(z) - leg.first.value(z)) / leg.cells
-        d_begin = leg.first.slope(size)
-        d_lasts = (leg.last.slope(size) - d_begin) / leg.cells
-        cells = np.arange(leg.cells)
-        here, behind = slice(node, node + leg.cells), slice(node + 1, node + leg.cells + 1)
-        time[node], d_time[node] = begin, d_begin
-        time[behind], d_time[behind] = begin + (cells + 1) * lasts, d_begin + (cells + 1)[:, None] * d_lasts
-        one, other = np.array(leg.accels[:-1], dtype=np.intp), np.array(leg.accels[1:], dtype=np.intp)
-        if leg.accels:
-            accel[here], after[here] = z[one], z[other]
-        mean, way = 0.5 * (accel[here] + after[here]), (2.0 * accel[here] + after[here]) / 6.0
-        more = mean[:, None] * d_lasts
-        more[cells[: len(one)], one] += 0.5 * lasts
-        more[cells[: len(one)], other] += 0.5 * lasts
-        v[behind], d_v[behind] = v[node] + lasts * np.cumsum(mean), d_v[node] + np.cumsum(more, axis=0)
-        more = lasts * d_v[here] + (v[here] + 2.0 * way * lasts)[:, None] * d_lasts
-        more[cells[: len(one)], one] += lasts**2 / 3.0
-        more[cells[: len(one)], other] += lasts**2 / 6.0
-        s[behind] = s[node] + np.cumsum(v[here] * lasts + way * lasts**2)
-        d_s[behind] = d_s[node] + np.cumsum(more, axis=0)
-        node += leg.cells
-    first_node.append(node)
-    return Shot(legs, time, s, v, accel, after, d_time, d_s, d_v, first_node, z)
+    accel[cells], after[cells] = z[one], z[other]
+    ends = np.array([[leg.first.value(z), leg.last.value(z)] for leg in legs])
+    d_ends = np.zeros((2, len(legs), size))
+    for number, leg in enumerate(legs):
+        for d_end, moment in zip(d_ends, (leg.first, leg.last), strict=True):
+            if moment.unknown is not None:
+                d_end[number, moment.unknown] = 1.0
+    of_leg = np.repeat(np.arange(len(legs)), counts)
+    lasts, d_lasts = ((ends[:, 1] - ends[:, 0]) / counts)[of_leg], ((d_ends[1] - d_ends[0]) / counts[:, None])[of_leg]
+    since = np.arange(nodes - 1) - np.repeat(first_node[:-1], counts)
+    time = np.append(ends[of_leg, 0] + since * lasts, ends[-1, 1])
+    d_time = np.concatenate([d_ends[0, of_leg] + since[:, None] * d_lasts, d_ends[1, -1:]])
+    mean, way = 0.5 * (accel + after)[:-1], (2.0 * accel + after)[:-1] / 6.0
+    more = mean[:, None] * d_lasts
+    more[cells, one] += 0.5 * lasts[cells]
+    more[cells, other] += 0.5 * lasts[cells]
+    v[1:], d_v[1:] = lasts * mean, more
+    v, d_v = np.cumsum(v), np.cumsum(d_v, axis=0)
+    more = lasts[:, None] * d_v[:-1] + (v[:-1] + 2.0 * way * lasts)[:, None] * d_lasts
+    more[cells, one] += lasts[cells] ** 2 / 3.0
+    more[cells, other] += lasts[cells] ** 2 / 6.0
+    s[1:], d_s[1:] = (v[:-1] + way * lasts) * lasts, more
+    s, d_s = np.cumsum(s), np.cumsum(d_s, axis=0)
+    return Shot(legs, time, s, v, accel, after, d_time, d_s, d_v, first_node, (cells, one, other), z)
 
 
 def profile_of(shot: Shot, knots_s: dict[str, float], past: Sequence[Segment]) -> Profile:

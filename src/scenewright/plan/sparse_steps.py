@@ -61,9 +61,12 @@ def least(hessian: Matrix, slope: Array, rows: Matrix, levels: Array, x: Array) 
         bent = splu(sparse.csc_array(hessian + counted.T @ counted), "MMD_AT_PLUS_A", **_SYMMETRIC)
         way = -bent.solve(pull + counted.T @ over[beyond])
         changes = rows @ way
-        if np.array_equal(beyond, over + changes > 0.0) or np.max(np.abs(way)) < _STANDS:
+        after = over + changes
+        if np.array_equal(beyond, after > 0.0) or np.max(np.abs(way)) < _STANDS:
             return x + way
-        share = _best_share(float(way @ pull), float(way @ (hessian @ way)), over, changes)
+        falls, bends = float(way @ pull), float(way @ (hessian @ way))
+        more = np.sum(np.maximum(after, 0.0) ** 2 - np.maximum(over, 0.0) ** 2)
+        share = 1.0 if falls + 0.5 * (bends + more) < 0.0 else _best_share(falls, bends, over, changes)
         x, over = x + share * way, over + share * changes
     return x
 
