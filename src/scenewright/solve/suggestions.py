@@ -6,7 +6,6 @@ that value there is a witness.
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Container, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
@@ -15,15 +14,17 @@ from scenewright.program.expressions import Compare, Formula, Number, ParameterR
 from scenewright.program.printer import print_expression
 from scenewright.program.types import Constraint, Program
 from scenewright.roads.grounding import Scene
-from scenewright.solve.proofs.decide import Question, decide
+from scenewright.solve.proofs.decide import Decision, Question, decide
 from scenewright.solve.tolerances import compared_dimension
 from scenewright.translate.lines import in_words
 from scenewright.units import SI_SYMBOL, Dimension, decimal_fraction, format_fraction
 
 _QUERY_S = 0.5  # for one value; chosen: a check takes 20 ms, the hardest ones some tenths of a second
-_ALL_S = 3.0  # of the processor, so that a busy machine proposes the same
+# For all, of what is decided at once as _QUICK_S, so that a busy machine proposes the same: no clock is asked. Chosen.
+_ALL_S, _QUICK_S = 3.0, 0.05
 _BISECTIONS = 10
 _SUGGESTIONS = 4
+_DECIMALS = 2, 3, 1  # of what is easy to read, tried in turn
 _FROM_ZERO = ("length", "time")  # a speed or a rate of nothing is another thing than a small one
 
 
@@ -76,6 +77,19 @@ class Lever:
         return replace(program, constraints=constraints)
 
 
+@dataclass(slots=True)
+class _Budget:
+    """What is left of the work that proposals may take."""
+
+    left_s: float = _ALL_S
+
+    def decide(self, question: Question) -> Decision:
+        """Decide, and count it."""
+        found = decide(question, _QUERY_S, explain=False)
+        self.left_s -= _QUERY_S if found.answer == "undecided" else _QUICK_S
+        return found
+
+
 def suggest(question: Question, core: set[str]) -> Iterator[Suggestion]:
     """Yield a few changes of one number, each with the value nearest to the present one that is possible.
 
@@ -84,11 +98,11 @@ def suggest(question: Question, core: set[str]) -> Iterator[Suggestion]:
     core
         Ids of the constraints that clash; only their numbers are tried.
     """
-    found, until = 0, time.process_time() + _ALL_S
+    found, budget = 0, _Budget()
     for lever in levers(question.scene, core):
-        if found >= _SUGGESTIONS or time.process_time() > until:
+        if found >= _SUGGESTIONS or budget.left_s <= 0.0:
             return
-        nearest = _nearest(question, lever, until)
+        nearest = _nearest(question, lever, budget)
         if nearest is not None:
             found += 1
             yield Suggestion(lever.what, float(lever.value), float(nearest), lever.unit)
@@ -122,35 +136,32 @@ def _numbers(formula: Formula) -> Iterator[tuple[ParameterRef | Number, Dimensio
             yield from ((n, compared_dimension(part)) for n in walk(part) if isinstance(n, ParameterRef | Number))
 
 
-def _nearest(question: Question, lever: Lever, until: float) -> Fraction | None:
-    """Return the value nearest to the lever's own with which there is a witness, rounded to a readable number.
-
-    After `until`, in time of the processor, what is near enough is looked for no longer.
-    """
+def _nearest(question: Question, lever: Lever, budget: _Budget) -> Fraction | None:
+    """Return the value nearest to the lever's own with which there is a witness, rounded to a readable number."""
     freed = replace(question, scene=_changed(question.scene, lever, None))
 
+    def does(value: Fraction) -> bool:
+        """Whether it can happen with a number in the lever's place."""
+        return budget.decide(replace(question, scene=_changed(question.scene, lever, value))).witness is not None
+
     def possible(low: Fraction, high: Fraction) -> Fraction | None:
-        decision = decide(replace(freed, freed={lever.name: (low, high)}), _QUERY_S, explain=False)
+        decision = budget.decide(replace(freed, freed={lever.name: (low, high)}))
         if decision.witness is not None:
             return decimal_fraction(f"{decision.witness.parameters[lever.name]:.6f}")
         if decision.answer == "infeasible":
             return None
         # As a number it bounds a law of motion, where that is what it does; as an unknown it cannot.
         furthest = max(low, high, key=lambda each: abs(each - lever.value))
-        told = replace(question, scene=_changed(question.scene, lever, furthest))
-        return furthest if decide(told, _QUERY_S, explain=False).answer == "feasible" else None
+        return furthest if does(furthest) else None
 
     value, sign = lever.value, -1 if lever.value < 0 else 1
     ends = (sign * 10 * abs(value) + 20 * sign, Fraction(0) if value else Fraction(-20))
-    found = [nearest for end in ends if (nearest := _nearest_towards(value, end, possible, until)) is not None]
+    found = [nearest for end in ends if (nearest := _nearest_towards(value, end, possible, budget)) is not None]
     if not found:
         return None
     best = min(found, key=lambda candidate: abs(candidate - value))
-    for digits in (2, 3, 4, 6):
-        for readable in _rounded(best, value, digits):
-            if readable != value and possible(readable, readable) is not None:
-                return readable
-    return None
+    readable = dict.fromkeys(each for digits in _DECIMALS for each in _rounded(best, value, digits) if each != value)
+    return next((each for each in readable if budget.left_s > 0.0 and does(each)), best)
 
 
 def _changed(scene: Scene, lever: Lever, value: Fraction | None) -> Scene:
@@ -163,15 +174,15 @@ def _changed(scene: Scene, lever: Lever, value: Fraction | None) -> Scene:
 
 
 def _nearest_towards(
-    value: Fraction, end: Fraction, possible: Callable[[Fraction, Fraction], Fraction | None], until: float
+    value: Fraction, end: Fraction, possible: Callable[[Fraction, Fraction], Fraction | None], budget: _Budget
 ) -> Fraction | None:
     """Bisect between `value`, which does not work, and what works on the way to `end`; None where nothing does."""
-    far = possible(min(value, end), max(value, end)) if time.process_time() < until else None
+    far = possible(min(value, end), max(value, end)) if budget.left_s > 0.0 else None
     if far is None:
         return None
     near = value
     for _ in range(_BISECTIONS):
-        if time.process_time() > until:
+        if budget.left_s < 0.5 * _ALL_S:  # what is found is to be rounded, too
             break
         middle = (near + far) / 2
         better = possible(min(middle, value), max(middle, value))
