@@ -38,7 +38,7 @@ class Suggestion:
     unit: str
 
     def __str__(self) -> str:
-        return f"{self.what}: {self.nearest:.9g} {self.unit} instead of {self.value:.9g} {self.unit}"
+        return f"{self.what}: {self.nearest:.9g} {self.unit} instead of {self.value:.4g} {self.unit}"
 
 
 @dataclass(frozen=True, slots=True)
