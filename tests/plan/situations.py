@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import cache
 
 import numpy as np
+import pytest
 from numpy.typing import NDArray
 
 from scenewright.plan.asked import Asked
@@ -18,10 +19,34 @@ from scenewright.roads.grounding import Scene, ground
 from scenewright.roads.load import load_map
 from scenewright.solve.arrival import linear_conditions
 from scenewright.solve.limits import limits_on
+from stories import STORIES
 
 Array = NDArray[np.float64]
 HERO = 1
 EGO_S_M, EGO_MPS = 180.0, 9.0
+WAITS_TWICE = """
+Actor 0 (ego):
+- W
+- [t0, go, t1, go, t2]
+
+Actor 1 (hero):
+- E, N
+- [t0, stop, t1, go, t2, dec, t3]
+
+Constraints:
+A0(t1) == A1(t2)
+A0x(t1) == conflict_point - 25
+A1x(t2) == conflict_point - 18
+A1x(t3) == conflict_point - 6
+A1v(t3) == 0
+A1v(3.5) >= 2
+"""
+AT_TIMES = (
+    STORIES["yields, distance"] + "A1v(2.0) == 4\nA1v(A0(t2)) == 0\nA1x(1.5) <= conflict_point - 25\nA1a(t1) <= -1\n"
+)
+PROGRAMS = {**STORIES, "waits twice": WAITS_TWICE, "at times": AT_TIMES}
+TABLE = [(name, at_s) for name in PROGRAMS for at_s in (0.0, 1.2)]
+every_problem = pytest.mark.parametrize(("name", "at_s"), TABLE)
 
 
 def scene_of(text: str) -> Scene:

@@ -19,11 +19,12 @@ from scenewright.plan.foresight import Foresight, Motions
 from scenewright.plan.guesses import even_motions, meet_later
 from scenewright.plan.pairs import Meeting, in_order, meetings_of, needed
 from scenewright.plan.prediction import EgoSample, Predictor
-from scenewright.plan.problem import AFTER_LAST_S, Missed, Problem
+from scenewright.plan.problem import Missed, Problem
 from scenewright.plan.shooting import profile_of
 from scenewright.plan.situation import Drive, Situation
 from scenewright.plan.solving import Solution, solve
 from scenewright.plan.triggers import SHORTEST_LEAD_S, TriggerTimes
+from scenewright.plan.unknowns import AFTER_LAST_S
 from scenewright.program.structure import Role, Structure, knots_of
 from scenewright.program.types import EGO, Actor, PieceKind
 from scenewright.roads.grounding import Scene

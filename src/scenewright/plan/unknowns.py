@@ -1,0 +1,318 @@
+"""The unknowns of a plan: the times of moments, where heroes begin, their accelerations; first values and bounds.
+
+What enters: what is asked, and a `Situation`. What leaves: for values of all unknowns the motions that they stand for.
+What these cost and miss is told elsewhere (see `problem`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scenewright.motion.profile import Profile
+from scenewright.plan.asked import Asked, number_of
+from scenewright.plan.pairs import AFTER_S, LOOK_S, Meeting, Way, passes_s
+from scenewright.plan.rows import SOONEST_S, Columns
+from scenewright.plan.shooting import CREEPS_MPS, Leg, Moment, Shot, Start, shoot
+from scenewright.plan.situation import Situation
+from scenewright.program.types import EGO, Actor, PieceKind
+
+Array = NDArray[np.float64]
+
+_CELL_S, _MOST_CELLS, AFTER_LAST_S = 0.6, 18, 3.0
+_LEAST_S = 0.05  # between two knots of one hero
+_LEAST_APPROACH_S = 0.4  # before the settled end of an approach, for it to have a leg of its own
+_LATEST_S, _FASTEST_MPS = 200.0, 60.0
+_BETWEEN_S = 2.0  # after one that goes first, where the other comes much later
+_STEP_S, _STEP_M, _STEP_MPS, _STEP_MPSS, _STEP_OTHER = 0.6, 40.0, 5.0, 3.0, 4.0
+
+
+@dataclass(frozen=True, slots=True)
+class _Own:
+    """The unknowns that one hero's motion and rows depend on; its start, its legs and all moments by these."""
+
+    columns: Columns
+    start: Start
+    legs: list[Leg]
+    moments: list[Moment]
+
+
+class Unknowns:
+    """The unknowns of one plan.
+
+    Attributes
+    ----------
+    guess, low, high, step
+        Of each unknown: its first value, its bounds, and the longest step that a linear model of it is good for.
+    """
+
+    def __init__(self, asked: Asked, now: Situation, meetings: Sequence[Meeting] = ()) -> None:
+        self.asked, self.now = asked, now
+        self._guess: list[float] = []
+        self._low: list[float] = []
+        self._high: list[float] = []
+        self._step: list[float] = []
+        self._starts: dict[int, Start] = {}
+        self._legs: dict[int, list[Leg]] = {}
+        self._nodes: dict[int, dict[int, int]] = {}  # by hero: which leg begins at an instant
+        self.moments = [self._moment(instant) for instant in range(len(asked.times))]
+        self._ego_moments = [self.moments[asked.knot(EGO, name)] for name in asked.scene.program.ego.sketch.knots]
+        self._span: dict[int, range] = {}  # by hero: the unknowns that are its alone
+        for hero in asked.scene.program.heroes:
+            drive = now.heroes.get(hero.id)
+            if drive is None or drive.piece < len(hero.sketch.pieces):  # else it only carries out what it drives
+                first = len(self._guess)
+                self._lay_out(hero)
+                self._span[hero.id] = range(first, len(self._guess))
+        self._others = self._rest()
+        self._shot: tuple[Array, dict[int, Shot]] | None = None
+        self._begins = [k for start in self._starts.values() for k in (start.place, start.speed) if k is not None]
+        self._moving = len(self._guess)  # of all unknowns that motions are by; moments between two come behind them
+        self._own = {hero: self._owned(hero) for hero in self._legs}
+        ends_s = [leg.last.value(self._guess) for legs in self._legs.values() for leg in legs]
+        end_s = max([now.time_s, *ends_s])  # from there on everybody holds its speed: gaps change evenly
+        looks = np.arange(np.ceil(now.time_s / LOOK_S), end_s / LOOK_S + 1.0) * LOOK_S
+        self._looks = np.append(looks, end_s + AFTER_S)
+        self._meetings = [each for meeting in meetings for each in self._open(meeting)]
+        self._driven = {
+            hero: Way(drive.motion).along(self._looks)
+            for hero, drive in now.heroes.items()
+            if self._meetings and hero not in self._legs
+        }
+        self.guess, self.low, self.high, self.step = map(np.array, (self._guess, self._low, self._high, self._step))
+
+    @property
+    def size(self) -> int:
+        """How many unknowns there are."""
+        return len(self._guess)
+
+    # -- unknowns -----------------------------------------------------------------------------------------------------
+    def _new(self, guess: float, low: float, high: float, step: float) -> int:
+        self._guess.append(min(max(guess, low), high))
+        self._low.append(low)
+        self._high.append(high)
+        self._step.append(step)
+        return len(self._guess) - 1
+
+    def _moment(self, instant: int) -> Moment:
+        constant = self.asked.events.times[instant].constant
+        if constant is not None:
+            return Moment(float(constant))
+        if instant in self.now.knots_s:
+            return Moment(self.now.knots_s[instant])
+        guess = self.now.expected_s.get(instant, self.now.time_s + 5.0)
+        soonest = self.now.time_s + SOONEST_S if self.now.heroes else float(self.asked.least_s[:, instant].max())
+        return Moment(0.0, self._new(guess, soonest, _LATEST_S, _STEP_S))
+
+    def _owned(self, hero: int) -> _Own:
+        """Return what a hero's motion and rows depend on: all but what is other heroes' alone."""
+        asked, owners = self.asked, dict[int, set[int]]()
+        for actor, instant in asked.events.states:
+            owners.setdefault(instant, set()).add(actor)
+        for narrowing in asked.narrowings:
+            for instant in (*narrowing.begins(), *narrowing.ends()) if narrowing.actor == hero else ():
+                owners.setdefault(instant, set()).add(hero)
+        foreign = {unknown for other, span in self._span.items() if other != hero for unknown in span}
+        foreign |= {
+            moment.unknown
+            for instant, moment in enumerate(self.moments)
+            if moment.unknown is not None and not owners.get(instant, {EGO}) & {EGO, hero}
+        }
+        columns = [unknown for unknown in range(len(self._guess)) if unknown not in foreign]
+        number = {unknown: k for k, unknown in enumerate(columns)}
+
+        def own(unknown: int | None) -> int | None:
+            return None if unknown is None else number.get(unknown)
+
+        def moved(moment: Moment) -> Moment:
+            return moment if moment.unknown is None else Moment(moment.constant_s, own(moment.unknown))
+
+        legs = [
+            Leg(
+                each.piece,
+                each.kind,
+                moved(each.first),
+                moved(each.last),
+                each.cells,
+                tuple(number[a] for a in each.accels),
+            )
+            for each in self._legs[hero]
+        ]
+        start = replace(self._starts[hero], place=own(self._starts[hero].place), speed=own(self._starts[hero].speed))
+        return _Own(np.array(columns, dtype=np.intp), start, legs, [moved(moment) for moment in self.moments])
+
+    def _rest(self) -> dict[int, int]:
+        """Make an unknown of every one that is neither a time nor a state nor a rate; return which is which."""
+        asked = self.asked
+        states = [value for state in asked.events.states.values() for value in (state.place, state.speed)]
+        values = [*asked.events.times, *states, *asked.lowering.rates.values()]
+        known = {number_of(value) for value in values}
+        return {
+            number: self._new(self.now.others.get(number, 0.0), float(unknown.low), float(unknown.high), _STEP_OTHER)
+            for number, unknown in enumerate(asked.events.unknowns)
+            if number not in known
+        }
+
+    def _open(self, meeting: Meeting) -> Iterator[tuple[Meeting, int | None]]:
+        """Yield a meeting, and the unknown moment between the two, if anybody is still planned for it."""
+        if meeting.first not in self._legs and meeting.second not in self._legs:
+            return
+        first, moment = self._motion(meeting.first), None
+        if meeting.zones_m is not None and first.state(self.now.time_s)[0] >= meeting.zones_m[0][1]:
+            meeting = replace(meeting, zones_m=None)
+        if meeting.zones_m is not None and first.state(self._looks[-1])[0] >= meeting.zones_m[0][1]:
+            moment = self._new(self.now.time_s, self.now.time_s, _LATEST_S, _STEP_S)
+        if meeting.zones_m is not None or meeting.lane_m is not None:
+            yield meeting, moment
+
+    def _motion(self, hero: int) -> Profile:
+        """Return what a hero drives or is first planned from."""
+        drive = self.now.heroes.get(hero)
+        return self.now.guesses[hero] if drive is None else drive.motion
+
+    # -- legs ---------------------------------------------------------------------------------------------------------
+    def _lay_out(self, hero: Actor) -> None:
+        """Make a hero's legs from now on, with first guesses of what it does in them."""
+        asked, pieces = self.asked, hero.sketch.pieces
+        instants = [asked.knot(hero.id, name) for name in hero.sketch.knots]
+        knots = [self.moments[instant] for instant in instants]
+        drive = self.now.heroes.get(hero.id)
+        piece, begin = (0, knots[0]) if drive is None else (drive.piece, Moment(drive.begin_s))
+        self._starts[hero.id] = self._start(hero)
+        nodes, legs = self._nodes.setdefault(hero.id, {}), self._legs.setdefault(hero.id, [])
+        for number in range(piece, len(pieces)):
+            if drive is None or number > piece:
+                nodes[instants[number]] = len(legs)
+            self._add_piece(hero, number, begin if number == piece else knots[number], knots[number + 1])
+        if piece < len(pieces):
+            nodes[instants[-1]] = len(legs)
+        last = knots[-1] if piece < len(pieces) else begin
+        after = PieceKind.STOP if pieces[-1] is PieceKind.STOP else PieceKind.GO
+        self._add_leg(hero, len(pieces) - 1, after, last, Moment(last.constant_s + AFTER_LAST_S, last.unknown))
+
+    def _start(self, hero: Actor) -> Start:
+        drive = self.now.heroes.get(hero.id)
+        if drive is not None:
+            return Start(*drive.motion.state(drive.begin_s)[:2])
+        place_m, speed_mps, _ = self.now.guesses[hero.id].state(0.0)
+        end_m = self.asked.scene.routes[hero.id].landmarks["route_end"]
+        place = self._new(place_m, 0.0, end_m, _STEP_M)
+        return Start(place=place, speed=self._new(speed_mps, 0.0, _FASTEST_MPS, _STEP_MPS))
+
+    def _add_piece(self, hero: Actor, number: int, first: Moment, last: Moment) -> None:
+        """Add the legs of one piece: two where it is to be settled at its end."""
+        kind, settled_s = hero.sketch.pieces[number], self.asked.wanted.settled_s
+        at_trigger = self.asked.knot(hero.id, hero.sketch.knots[number + 1]) == self.asked.trigger(hero.id)
+        lasts_s = last.value(self._guess) - first.value(self._guess)
+        if kind is not PieceKind.GO or not at_trigger or lasts_s <= settled_s + _LEAST_APPROACH_S:
+            self._add_leg(hero, number, kind, first, last)
+            return
+        between = Moment(last.constant_s - settled_s, last.unknown)
+        if last.unknown is not None and first.unknown is None:
+            self._low[last.unknown] = max(self._low[last.unknown], first.constant_s + settled_s + _LEAST_S)
+        self._add_leg(hero, number, kind, first, between)
+        self._add_leg(hero, number, kind, between, last, joined=True)
+
+    def _add_leg(
+        self, hero: Actor, piece: int, kind: PieceKind, first: Moment, last: Moment, *, joined: bool = False
+    ) -> None:
+        legs = self._legs[hero.id]
+        if kind is PieceKind.STOP:
+            legs.append(Leg(piece, kind, first, last, 1, ()))
+            return
+        limits, wanted = self.asked.limits[hero.id], self.asked.wanted
+        low, high, guess = -limits.brake_max_mpss, limits.accel_max_mpss, 0.0
+        if kind is PieceKind.DEC:
+            high, guess = 0.0, -wanted.braking_mpss
+        elif kind is PieceKind.ACC:
+            low, guess = 0.0, wanted.speeding_up_mpss
+        lasts_s = last.value(self._guess) - first.value(self._guess)
+        cells = min(max(2, round(lasts_s / _CELL_S)), _MOST_CELLS)
+        accels = [legs[-1].accels[-1]] if joined else []
+        before = self._as_planned(hero, piece, first, last)
+        for k in range(len(accels), cells + 1):
+            if before is not None:
+                profile, begin_s, end_s = before
+                inside_s = 1e-6 if k == 0 else -1e-6 if k == cells else 0.0
+                guess = profile.state(begin_s + (end_s - begin_s) * k / cells + inside_s)[2]
+            accels.append(self._new(guess, low, high, _STEP_MPSS))
+        legs.append(Leg(piece, kind, first, last, cells, tuple(accels)))
+
+    def _as_planned(self, hero: Actor, piece: int, first: Moment, last: Moment) -> tuple[Profile, float, float] | None:
+        """Return the motion in force, and when it does what a leg is to do: guesses keep to their places in pieces."""
+        drive = self.now.heroes.get(hero.id)
+        profile = self.now.guesses.get(hero.id) if drive is None else drive.motion
+        if profile is None or len(profile.knot_times_s) < 2:
+            return None
+        begin_s = 0.0 if drive is None else drive.begin_s
+        old = [max(begin_s, profile.knot_times_s[name]) for name in hero.sketch.knots]
+        now = [
+            max(begin_s, self.moments[self.asked.knot(hero.id, name)].value(self._guess)) for name in hero.sketch.knots
+        ]
+        if first.value(self._guess) >= now[-1] - 1e-9:
+            return (profile, old[-1], profile.end_s) if profile.end_s > old[-1] else None
+        whole, lasted = now[piece + 1] - now[piece], old[piece + 1] - old[piece]
+        ends = [
+            old[piece] + (moment.value(self._guess) - now[piece]) / max(whole, 1e-9) * lasted
+            for moment in (first, last)
+        ]
+        return (profile, ends[0], ends[1]) if ends[0] < ends[1] else None
+
+    # -- values -------------------------------------------------------------------------------------------------------
+    def keep_near(self, share: float) -> None:
+        """Keep all unknowns within a share of their longest steps of their first values."""
+        self.low = np.maximum(self.low, self.guess - share * self.step)
+        self.high = np.minimum(self.high, self.guess + share * self.step)
+
+    def others(self, z: Array) -> dict[int, float]:
+        """Return the values of what is neither a time nor a state nor a rate, by its number."""
+        return {number: float(z[unknown]) for number, unknown in self._others.items()}
+
+    def ordered(self, z: Array) -> Array:
+        """Return values within their bounds in which everybody's knots come one after another."""
+        z = np.clip(z, self.low, self.high)
+        for actor in self.asked.scene.program.actors:
+            latest = -np.inf
+            for name in actor.sketch.knots:
+                moment = self.moments[self.asked.knot(actor.id, name)]
+                if moment.unknown is not None:
+                    z[moment.unknown] = max(z[moment.unknown], latest + _LEAST_S - moment.constant_s)
+                latest = max(latest, moment.value(z))
+        for meeting, between in self._meetings:
+            if between is not None:
+                z[between] = np.clip(self._between_s(meeting, z), self.low[between], self.high[between])
+        return z
+
+    def _between_s(self, meeting: Meeting, z: Array) -> float:
+        """Return a moment midway between the first's leaving a stretch and the second's entering it.
+
+        Where that comes too late, the moment at which both miss as little as can be.
+        """
+        assert meeting.zones_m is not None
+        clear_m = self.asked.wanted.clear_m
+        left_s, left_mps = self._passes(meeting.first, meeting.zones_m[0][1] + clear_m, z)
+        enters_s, enters_mps = self._passes(meeting.second, meeting.zones_m[1][0] - clear_m, z)
+        left_s = min(left_s, float(self._looks[-1]))
+        enters_s = min(enters_s, left_s + _BETWEEN_S)
+        share = left_mps**2 / (left_mps**2 + enters_mps**2) if left_s > enters_s else 0.5
+        return share * left_s + (1.0 - share) * enters_s
+
+    def _passes(self, hero: int, place_m: float, z: Array) -> tuple[float, float]:
+        """Return when a hero comes to a place, and how fast it is there."""
+        shot, drive = self.shots(z).get(hero), self.now.heroes.get(hero)
+        if shot is not None and (drive is None or place_m >= shot.s[0]):
+            return shot.passes(place_m)
+        assert drive is not None
+        at_s = min(passes_s(drive.motion, place_m), _LATEST_S)
+        return at_s, max(drive.motion.state(at_s)[1], CREEPS_MPS)
+
+    def shots(self, z: Array) -> dict[int, Shot]:
+        """Return the motions of all that are still planned; slopes are by their own unknowns."""
+        moved = z[: self._moving]
+        if self._shot is None or not np.array_equal(self._shot[0], moved):  # they are often asked for twice
+            shots = {hero: shoot(own.legs, own.start, z[own.columns]) for hero, own in self._own.items()}
+            self._shot = moved.copy(), shots
+        return self._shot[1]
