@@ -95,3 +95,14 @@ def near(problem: Problem, seed: int, share: float = 0.15) -> Array:
     """Return values at random around first ones."""
     chance = np.random.default_rng(seed)
     return problem.ordered(problem.guess + share * problem.step * chance.uniform(-1.0, 1.0, problem.size))
+
+
+def driven_on(planner: Planner, from_s: float, to_s: float, faster_mps: float = 0.0, mpss: float = 0.0) -> float:
+    """Let the ego drive on, somewhat faster than foreseen at first; return its speed."""
+    _, s_m, speed_mps, _ = planner._ego.samples[-1]
+    speed_mps += faster_mps
+    for k in range(1, round((to_s - from_s) / 0.02) + 1):
+        s_m += (speed_mps + 0.01 * mpss) * 0.02
+        speed_mps += 0.02 * mpss
+        planner.observe((round(from_s + 0.02 * k, 9), s_m, speed_mps, mpss))
+    return speed_mps

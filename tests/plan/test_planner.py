@@ -6,8 +6,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from many_heroes import PROGRAMS
-from situations import HERO, planner_of, scene_of
+from situations import HERO, driven_on, planner_of, scene_of
 
 from scenarios import BEHIND_ITSELF, FEASIBLE, TOO_FAST, YIELDS, Example, limits_of
 from scenewright.judge.tolerance import TIGHT, dimension_of
@@ -164,17 +163,6 @@ def test_the_same_situation_has_the_same_plan() -> None:
 
 
 # -- ticks ----------------------------------------------------------------------------------------------------------
-def driven_on(planner: Planner, from_s: float, to_s: float, faster_mps: float = 0.0, mpss: float = 0.0) -> float:
-    """Let the ego drive on, somewhat faster than foreseen at first; return its speed."""
-    _, s_m, speed_mps, _ = planner._ego.samples[-1]
-    speed_mps += faster_mps
-    for k in range(1, round((to_s - from_s) / 0.02) + 1):
-        s_m += (speed_mps + 0.01 * mpss) * 0.02
-        speed_mps += 0.02 * mpss
-        planner.observe((round(from_s + 0.02 * k, 9), s_m, speed_mps, mpss))
-    return speed_mps
-
-
 @pytest.mark.parametrize("story", STORIES)
 @pytest.mark.parametrize(("faster_mps", "mpss", "now_s"), [(0.8, 0.5, 0.4), (-0.8, -0.2, 1.0), (0.5, -0.3, 2.2)])
 def test_a_tick_goes_on_from_where_all_are_and_leaves_the_past(
@@ -202,29 +190,6 @@ def test_a_tick_goes_on_from_where_all_are_and_leaves_the_past(
             planner.scene.landmark_m(EGO, "conflict_point", HERO) - (30.0 if story.startswith("yields") else 40.0),
             abs=0.1,
         )
-
-
-def test_after_its_trigger_a_plan_stays_as_it_is() -> None:
-    planner = planner_of(scene_of(YIELDS_DISTANCE))
-    planner.begin((0.0, 200.0, 9.0, 0.0))
-    trigger_s = planner.plan.profiles[HERO].knot_times_s["t1"]
-    now_s = round(trigger_s + 0.1, 2)
-    driven_on(planner, 0.0, now_s)
-    kept = planner.plan
-    assert planner.tick(now_s).status == "frozen"
-    assert planner.plan is kept
-    assert planner.ego_knots_s["t1"] == trigger_s
-
-
-@pytest.mark.parametrize("soon_s", [0.001, 0.01, 0.019])
-def test_a_trigger_that_is_due_is_not_put_off_by_a_tick(soon_s: float) -> None:
-    """What begins within the next step cannot be answered any more: solved again it could only come later."""
-    planner = planner_of(scene_of(YIELDS_DISTANCE))
-    planner.begin((0.0, 200.0, 9.0, 0.0))
-    trigger_s = planner.plan.profiles[HERO].knot_times_s["t1"]
-    driven_on(planner, 0.0, round(trigger_s - soon_s, 2))
-    assert planner.tick(trigger_s - soon_s).status == "frozen"
-    assert planner.plan.profiles[HERO].knot_times_s["t1"] == trigger_s
 
 
 def test_one_that_stands_goes_the_sooner_the_sooner_the_ego_comes() -> None:
@@ -360,24 +325,3 @@ def test_whoever_begins_behind_the_ego_does_not_tailgate() -> None:
     room_m = ego[0] - hero[0] - 4.5
     assert planned[2].is_good
     assert 0.95 * hero[1] <= room_m < 3.0 * hero[1]
-
-
-@pytest.mark.parametrize("heroes", [1, 2])
-def test_triggers_of_several_move_on_by_half_a_second_a_tick_until_they_come_soon(heroes: int) -> None:
-    """Where an ego stops for long, plans from far off would take long; with one hero they do not."""
-    planner = planner_of(scene_of(PROGRAMS["crossing"](heroes)))
-    planner.begin((0.0, 150.0, 9.0, 0.0))
-    s_m, before = 150.0, {hero: planner.plan.profiles[hero].knot_times_s["t1"] for hero in range(1, heroes + 1)}
-    moved = []
-    for step in range(1, 101):
-        time_s, speed_mps = 0.02 * step, max(0.0, 9.0 - 0.16 * step)
-        s_m += 0.02 * speed_mps
-        planner.observe((time_s, s_m, speed_mps, -8.0 if speed_mps else 0.0))
-        if step % 5 == 0:
-            planner.tick(time_s)
-            now = {hero: planner.plan.profiles[hero].knot_times_s["t1"] for hero in before}
-            moved += [(now[hero] - then_s, then_s - time_s) for hero, then_s in before.items()]
-            before = now
-    assert max(by_s for by_s, _ in moved) > (1.0 if heroes == 1 else 0.4)
-    if heroes > 1:
-        assert all(by_s <= 0.5 + 1e-6 for by_s, left_s in moved if left_s > 2.0)

@@ -1,0 +1,239 @@
+"""How a run stands: what is known of the ego, the plan in force, and what the next plan starts from.
+
+What enters: the ego's states, tick by tick. What leaves: `Situation`s. History is fixed; a hero freezes at its trigger,
+but for later pieces that react to the ego. Nothing is planned here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import InitVar, dataclass, field
+
+from scenewright.motion.profile import Profile, chain
+from scenewright.plan.asked import Asked
+from scenewright.plan.foresight import Foresight
+from scenewright.plan.prediction import EgoSample, Predictor
+from scenewright.plan.situation import Drive, Situation
+from scenewright.plan.triggers import SHORTEST_LEAD_S, TriggerTimes
+from scenewright.program.structure import Role, Structure, knots_of
+from scenewright.program.types import EGO, Actor, PieceKind
+from scenewright.roads.grounding import Scene
+from scenewright.solve.arrival import LinearCondition, linear_conditions
+from scenewright.solve.limits import Limits
+from scenewright.solve.plan import Plan
+
+# By how much a trigger of several heroes moves in a tick at most (s), unless it comes so soon (s) that it has to: steps
+# from far off are slow. Measured: ticks with an ego that stops and goes take a third as long, and as many are met.
+_MOVES_S, _SOON_S = 0.5, 1.0
+
+
+@dataclass(slots=True)
+class Standing:
+    """One scene over one run, as it stands.
+
+    Attributes
+    ----------
+    limits
+        Of every actor, by id.
+    predictor
+        Foresees the ego where it follows nobody.
+    conditions
+        The scene's linear conditions.
+    plan
+        The motion that is being carried out.
+    ego_knots_s
+        When the ego passed its knots.
+    """
+
+    scene: Scene
+    structure: Structure
+    limits: Mapping[int, Limits]
+    predictor: InitVar[Predictor]
+    conditions: tuple[LinearCondition, ...]
+    plan: Plan = field(init=False)
+    ego_knots_s: dict[str, float] = field(init=False, default_factory=dict)
+    _asked: Asked = field(init=False)
+    _times: TriggerTimes = field(init=False)
+    _moments_s: Mapping[int, float] = field(init=False, default_factory=dict)  # of the plan, by instant
+    _others: Mapping[int, float] = field(init=False, default_factory=dict)  # its other unknowns, by number
+    _ego: Foresight = field(init=False)
+    _joint_s: dict[int, float] = field(init=False, default_factory=dict)  # first planned, where both decide when
+
+    def __post_init__(self, predictor: Predictor) -> None:
+        self._asked = Asked(self.scene, self.structure, self.limits)
+        self._times = TriggerTimes(self.scene, self.structure, self.conditions)
+        cruise_mps = self.limits[EGO].natural_approach_speed_mps
+        told = linear_conditions(self.scene, self.structure, with_bounds=True)
+        self._ego = Foresight(self.scene, self.structure, told, predictor, cruise_mps)
+
+    def observe(self, sample: EgoSample) -> None:
+        """Take note of the ego's state after a step, and of the knots that it passed in it."""
+        previous = self._ego.samples[-1]
+        self._ego.samples.append(sample)
+        for hero, instant in self.structure.triggers.items():
+            planned = self.plan.profiles[hero].knot_times_s.get(self._name(hero))
+            if planned is not None and planned <= sample[0]:
+                for owner, name in instant:
+                    if owner == EGO:
+                        self.ego_knots_s.setdefault(name, planned)  # the moment is the same
+        knots = self.scene.program.ego.sketch.knots
+        for condition in self._times.ego_alone():
+            knot = next(iter(condition.moments))[1]
+            if knot in self.ego_knots_s or any(k not in self.ego_knots_s for k in knots[: knots.index(knot)]):
+                continue
+            before, after = (condition.value({EGO: state[1:3]}) for state in (previous, sample))
+            if before != after and before * after <= 0:
+                self.ego_knots_s[knot] = previous[0] + before / (before - after) * (sample[0] - previous[0])
+
+    # -- what a plan starts from --------------------------------------------------------------------------------------
+    def _first_situation(self, prediction: Profile, joint_s: float, guesses: Mapping[int, Profile]) -> Situation:
+        triggers = {
+            hero.id: self._times.instant_s(hero, 0.0, prediction, None)
+            for hero in self._heroes
+            if self._times.ego_decides(hero)
+        }
+        knots = {self._asked.knot(hero, self._name(hero)): at_s for hero, at_s in triggers.items()}
+        knots |= self._ego_knots(0.0, prediction, triggers, knots)
+        expected: dict[int, float] = {}
+        planned: dict[int, float] = {}
+        for hero in self._heroes:
+            if hero.id not in triggers and (name := self.structure.trigger_knot(hero.id)) is not None:
+                instant = self._asked.knot(hero.id, name)
+                expected[instant] = planned[instant] = guesses[hero.id].knot_times_s.get(name, joint_s)
+        for actor in self.scene.program.actors:
+            now, told = 0.0, guesses[actor.id].knot_times_s if actor.id in guesses else {}
+            for name in actor.sketch.knots:
+                instant = self._asked.knot(actor.id, name)
+                if instant not in knots:
+                    soonest_s = [at_s + self._asked.least_s[known, instant] for known, at_s in knots.items()]
+                    chained = self.structure.trigger_knot(actor.id) is None and actor.id in self._asked.adapts_until
+                    usual_s = max([now + self._asked.wanted.lasts_s, *(soonest_s if chained else ())])
+                    expected.setdefault(instant, told.get(name, usual_s))
+                now = knots.get(instant, expected.get(instant, now))
+        for instant, at_s in self._moments_s.items():
+            if instant not in knots:
+                expected.setdefault(instant, at_s)
+        return Situation(
+            0.0,
+            self._ego.states(prediction),
+            knots,
+            expected,
+            guesses=guesses,
+            others=self._others,
+            planned_s=planned,
+            waits=frozenset(triggers),
+            sure=self._ego.is_sure,
+            lanes=self._ego.lanes(guesses, 0.0, prediction, first=True),
+        )
+
+    def _situation(self, time_s: float, prediction: Profile) -> tuple[Situation, float]:
+        """Return what to plan from now, and by how much triggers have moved of which the ego decides (s)."""
+        knots: dict[int, float] = {}
+        expected: dict[int, float] = {}
+        planned: dict[int, float] = {}
+        drives: dict[int, Drive] = {}
+        triggers: dict[int, float] = {}
+        moved_s = 0.0
+        for hero in self._heroes:
+            profile, names = self.plan.profiles[hero.id], hero.sketch.knots
+            piece = self._open_piece(hero, time_s)
+            first = len(hero.sketch.pieces) if piece is None else piece
+            begin_s = max(time_s, profile.knot_times_s.get(names[first], time_s))
+            drives[hero.id] = Drive(begin_s, first, profile)
+            for number, name in enumerate(names):
+                (knots if number <= first else expected)[self._asked.knot(hero.id, name)] = profile.knot_times_s[name]
+            trigger = self.structure.trigger_knot(hero.id)
+            if trigger is None or (instant := self._asked.knot(hero.id, trigger)) in knots:
+                continue
+            if not self._times.ego_decides(hero):
+                planned[instant] = self._joint_s[hero.id]
+                sooner_s = self._comes_true_s(hero, time_s, prediction, profile.knot_times_s[trigger])
+                if sooner_s is not None:
+                    expected[instant] = planned[instant] = sooner_s
+                continue
+            before_s = profile.knot_times_s[trigger]
+            then_s = self._times.instant_s(hero, time_s, prediction, before_s)
+            if len(self.scene.program.heroes) > 1:
+                most_s = max(_MOVES_S, abs(then_s - before_s) * _SOON_S / (then_s - time_s))
+                then_s = min(max(then_s, before_s - most_s), before_s + most_s)
+            triggers[hero.id] = knots[instant] = then_s
+            moved_s = max(moved_s, abs(knots[instant] - before_s))
+            for later in names[names.index(trigger) + 1 :]:  # what follows keeps its place in time after it
+                expected[self._asked.knot(hero.id, later)] += knots[instant] - before_s
+        knots |= self._ego_knots(time_s, prediction, triggers, knots)
+        for instant, at_s in self._moments_s.items():  # places that were passed, and what happened, are history too
+            if instant not in knots and instant not in expected:
+                (knots if at_s <= time_s else expected)[instant] = at_s
+        situation = Situation(
+            time_s,
+            self._ego.states(prediction),
+            knots,
+            expected,
+            drives,
+            others=self._others,
+            planned_s=planned,
+            waits=frozenset(triggers),
+            sure=self._ego.is_sure,
+            lanes=self._ego.lanes(self.plan.profiles, time_s, prediction, first=False),
+        )
+        return situation, moved_s
+
+    def _comes_true_s(self, hero: Actor, time_s: float, prediction: Profile, planned_s: float) -> float | None:
+        """Return when a condition on both comes true before it is planned to, if the hero goes on as it is.
+
+        An ego that follows a hero answers whatever that does: the less it does, the better the ego is foreseen.
+        """
+        here = [c for c in self.conditions if c.moments <= self.structure.triggers[hero.id]]
+        if len(here) != 1 or set(here[0].weights) != {EGO, hero.id}:
+            return None
+        s_m, speed_mps, _ = self.plan.profiles[hero.id].state(time_s)
+        even = Profile(chain(time_s, s_m, speed_mps, [(1.0, 0.0, 0)]))
+        found = here[0].first_time({EGO: prediction, hero.id: even}, time_s + SHORTEST_LEAD_S)
+        return found if found is not None and found < planned_s else None
+
+    # -- what is known ------------------------------------------------------------------------------------------------
+    @property
+    def _heroes(self) -> Iterable[Actor]:
+        return self.scene.program.heroes
+
+    def _name(self, hero: int) -> str:
+        return self.structure.trigger_knot(hero) or ""
+
+    def _ego_knots(
+        self, time_s: float, prediction: Profile, triggers: Mapping[int, float], known: Mapping[int, float]
+    ) -> dict[int, float]:
+        """Return when the ego passes its knots, by instant, as far as they are not known."""
+        found = self._times.ego_knots_s(time_s, prediction, self.ego_knots_s, triggers)
+        instants = {self._asked.knot(EGO, name): at_s for name, at_s in found.items()}
+        return {instant: at_s for instant, at_s in instants.items() if instant not in known}
+
+    def _open_piece(self, hero: Actor, time_s: float) -> int | None:
+        """Return the piece from which on a hero is still solved for, or None once it only carries out.
+
+        Before its trigger (or what hangs on another's) that is the piece it is in. After it, pieces from the first
+        standing one on that a reactive constraint speaks of, up to the moment they have begun to move again.
+        """
+        times, sketch = self.plan.profiles[hero.id].knot_times_s, hero.sketch
+        soon_s = time_s + SHORTEST_LEAD_S  # what comes sooner could only be put off
+        current = sum(1 for knot in sketch.knots[1:] if times.get(knot, float("inf")) < soon_s)
+        trigger = self._asked.adapts_until.get(hero.id)
+        if trigger is None:
+            return None
+        if current < sketch.knot_index(trigger):
+            return current
+        reactive = self._reactive_piece(hero, sketch.knot_index(trigger))
+        return reactive if reactive is not None and current <= reactive else None
+
+    def _reactive_piece(self, hero: Actor, trigger: int) -> int | None:
+        """Return the standing piece after the trigger whose end a constraint with the ego depends on."""
+        knots = hero.sketch.knots
+        for piece in range(trigger + 1, len(hero.sketch.pieces)):
+            if hero.sketch.pieces[piece] is not PieceKind.STOP:
+                continue
+            later = {(hero.id, name) for name in knots[piece + 1 :]}
+            for constraint in self.scene.program.constraints:
+                keys = set(knots_of(constraint.formula))
+                orders = self.structure.roles[constraint.id] is Role.OUTCOME
+                if orders and keys & later and any(actor == EGO for actor, _ in keys):
+                    return piece
+        return None

@@ -1,0 +1,53 @@
+"""How a run stands: when a hero is still planned, and when triggers come by what was planned before."""
+
+from __future__ import annotations
+
+import pytest
+from many_heroes import PROGRAMS
+from situations import HERO, driven_on, planner_of, scene_of
+
+from stories import YIELDS_DISTANCE
+
+
+def test_after_its_trigger_a_plan_stays_as_it_is() -> None:
+    planner = planner_of(scene_of(YIELDS_DISTANCE))
+    planner.begin((0.0, 200.0, 9.0, 0.0))
+    trigger_s = planner.plan.profiles[HERO].knot_times_s["t1"]
+    now_s = round(trigger_s + 0.1, 2)
+    driven_on(planner, 0.0, now_s)
+    kept = planner.plan
+    assert planner.tick(now_s).status == "frozen"
+    assert planner.plan is kept
+    assert planner.ego_knots_s["t1"] == trigger_s
+
+
+@pytest.mark.parametrize("soon_s", [0.001, 0.01, 0.019])
+def test_a_trigger_that_is_due_is_not_put_off_by_a_tick(soon_s: float) -> None:
+    """What begins within the next step cannot be answered any more: solved again it could only come later."""
+    planner = planner_of(scene_of(YIELDS_DISTANCE))
+    planner.begin((0.0, 200.0, 9.0, 0.0))
+    trigger_s = planner.plan.profiles[HERO].knot_times_s["t1"]
+    driven_on(planner, 0.0, round(trigger_s - soon_s, 2))
+    assert planner.tick(trigger_s - soon_s).status == "frozen"
+    assert planner.plan.profiles[HERO].knot_times_s["t1"] == trigger_s
+
+
+@pytest.mark.parametrize("heroes", [1, 2])
+def test_triggers_of_several_move_on_by_half_a_second_a_tick_until_they_come_soon(heroes: int) -> None:
+    """Where an ego stops for long, plans from far off would take long; with one hero they do not."""
+    planner = planner_of(scene_of(PROGRAMS["crossing"](heroes)))
+    planner.begin((0.0, 150.0, 9.0, 0.0))
+    s_m, before = 150.0, {hero: planner.plan.profiles[hero].knot_times_s["t1"] for hero in range(1, heroes + 1)}
+    moved = []
+    for step in range(1, 101):
+        time_s, speed_mps = 0.02 * step, max(0.0, 9.0 - 0.16 * step)
+        s_m += 0.02 * speed_mps
+        planner.observe((time_s, s_m, speed_mps, -8.0 if speed_mps else 0.0))
+        if step % 5 == 0:
+            planner.tick(time_s)
+            now = {hero: planner.plan.profiles[hero].knot_times_s["t1"] for hero in before}
+            moved += [(now[hero] - then_s, then_s - time_s) for hero, then_s in before.items()]
+            before = now
+    assert max(by_s for by_s, _ in moved) > (1.0 if heroes == 1 else 0.4)
+    if heroes > 1:
+        assert all(by_s <= 0.5 + 1e-6 for by_s, left_s in moved if left_s > 2.0)
