@@ -172,3 +172,16 @@ def test_when_the_steps_are_spent_only_last_resorts_are_tried(monkeypatch: pytes
     monkeypatch.setattr(beginning, "_MOST_STEPS", 0)
     first_plan(world, world.predictor)
     assert [start.last_resort for start in tried[1:]] == [True] * (len(tried) - 1)
+
+
+@pytest.mark.parametrize("ego", ["idm", "noisy"])
+def test_an_ego_that_nothing_places_begins_so_far_back_that_the_outcome_can_come_about(ego: str) -> None:
+    """By the clock a hero brakes, and then passes before the ego: where that is until then is nobody's business."""
+    rest = (
+        "A1(t1) == 6\nA1x(t1) == conflict_point - 40\nA1v(t1) == 9\nA1a(dec) == -2.5\nA1v(t2) == 4\n"
+        "A1x(t3) == conflict_point\nA0x(t1) == conflict_point\nA0(t1) - A1(t3) >= 1"
+    )
+    actors = "Actor 0 (ego):\n- W\n- [t0, go, t1]\n\nActor 1 (hero):\n- E, N\n- [t0, go, t1, dec, t2, acc, t3]\n"
+    text = f'scenario "by the clock"\n{actors}\nConstraints:\n{rest}'
+    result = orchestrate(Request(text, ego=ego, takes=1))
+    assert result.status == "success"

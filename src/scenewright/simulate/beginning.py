@@ -36,6 +36,7 @@ from scenewright.units import pin
 _SAME_ROAD_M = 1.0
 # Newton steps after which nothing but a last resort is tried: of 160 cases of the benchmark none did well after more.
 _MOST_STEPS = 700
+_SURELY_S = 0.5  # by which an outcome is to come later than it has to
 _SHIFTS = 4  # of a start, until an ego that slows down for a bend is where it is to be
 
 
@@ -92,11 +93,27 @@ class _Planned:
 
 
 def _plan_from(world: World, start: EgoFirstState, limits: Mapping[int, Limits], predictor: Predictor) -> _Planned:
-    """Plan from a start; where the ego would begin too near to somebody and brake hard, from further away."""
+    """Plan from a start; where the ego would begin too near to somebody and brake hard, from further away.
+
+    Likewise, as far as nothing tells where it is before its outcome, where that would come too soon.
+    """
     found = _planned(world, world.planned, start, limits, predictor)
+    late_s = found.attempt.missed.late_s
+    if late_s > 0.0 and found.attempt.is_good and _is_anywhere(world):
+        later = replace(start, s_m=start.s_m - (late_s + _SURELY_S) * start.speed_mps)
+        found = min(found, _planned(world, world.planned, later, limits, predictor), key=lambda each: each.rank)
     if not found.saved_from:
         return found
     return _planned(world, _kept_apart(world.planned, found.saved_from, start.speed_mps), start, limits, predictor)
+
+
+def _is_anywhere(world: World) -> bool:
+    """Whether neither the ego's start nor the trigger of a hero tells where it is."""
+    first = {(EGO, world.scene.program.ego.sketch.knots[0])}
+    told = first.union(*world.structure.triggers.values())
+    return not any(
+        EGO in each.weights and each.moments & told for each in linear_conditions(world.scene, world.structure)
+    )
 
 
 def _planned(
