@@ -167,3 +167,11 @@ def test_two_careful_drivers_in_turn_both_get_through() -> None:
 )
 def test_right_of_way(ego, other, expected: bool) -> None:
     assert yields(ego, other) is expected
+
+
+def test_one_that_is_about_to_merge_is_not_followed_yet_but_given_way_to() -> None:
+    """It stands across the corner of the ego's own way, and is not on it."""
+    waits = Car("hero", route("W", "N"), 316.4, 0.0, lambda t, car: 4.0 if t >= 0.6 and car.speed_mps < 5.5 else 0.0)
+    log = drive(Idm(), route("E", "N"), 289.0, 6.4, [waits], 12.0)
+    assert not log.collided
+    assert min(log.speed_mps) < 4.5

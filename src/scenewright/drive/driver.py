@@ -132,7 +132,7 @@ class Driver:
                 if gap_m is not None and neighbour.lies_across:
                     accel = min(accel, stopping_accel(speed_mps, gap_m - _ACROSS_MARGIN_M, traits.brake_mpss))
                 elif gap_m is not None:
-                    follows = True
+                    follows = neighbour.goes_its_way
                     interaction = min(interaction, self._follow(gap_m, speed_mps, neighbour.speed_along_mps(other)))
             if traits.lawful and not follows:  # whoever is ahead on its own way is not given way to
                 accel = min(accel, self._heed(neighbour, other, s_m, speed_mps, time_s))

@@ -17,6 +17,7 @@ from scenewright.roads.path import wrap_rad
 
 _LANE_REACH_M = 2.0
 _HEADING_REACH_RAD = 0.5
+_ON_IT_M, _ALONG_IT_RAD = 1.0, 0.2  # of the ego's own path; who comes onto it from another is neither at first
 _STANDING_MPS = 0.3
 _ELSEWHERE_M = 6.0
 _SIDE_MARGIN_M = 0.2
@@ -139,6 +140,12 @@ class Neighbour:
             reach_m = max(gap_m, 0.0) + vehicle.length_m + ego.length_m
             return free_way_m(self.on_ego_path.path, ego, ego_s_m, vehicle, reach_m=reach_m)
         return gap_m
+
+    @property
+    def goes_its_way(self) -> bool:
+        """Whether the vehicle, at the last look, was on the ego's own path and drove along it."""
+        foot = self.on_ego_path
+        return abs(foot.d_m) < _ON_IT_M and abs(foot.heading_error_rad) < _ALONG_IT_RAD
 
     @property
     def lies_across(self) -> bool:
