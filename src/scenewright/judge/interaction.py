@@ -128,7 +128,7 @@ def _piece(case: Case, measured: Measured, hero: Actor, index: int) -> Iterator[
             f"{hero.name}_{name}", "interaction", f"{called(hero.name)} does not move while it {doing}",
             required=0.0, measured=top, error=top, dimension="speed",
         )  # fmt: skip
-        if hero.sketch.pieces[index + 1 :][:1] not in ((), (PieceKind.STOP,), (PieceKind.DEC,)):
+        if set(hero.sketch.pieces[index + 1 : index + 2]) & {PieceKind.GO, PieceKind.ACC}:
             yield _goes_again(case, hero, span[0])
     elif kind is PieceKind.DEC and _ends_standing(case, measured, hero, index):
         yield _stands(case, hero, span[0])

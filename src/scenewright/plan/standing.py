@@ -23,7 +23,8 @@ from scenewright.solve.limits import Limits
 from scenewright.solve.plan import Plan
 
 # By how much a trigger of several heroes moves in a tick at most (s), unless it comes so soon (s) that it has to: steps
-# from far off are slow. Measured: ticks with an ego that stops and goes take a third as long, and as many are met.
+# from far off are slow. Measured (docs/many-heroes.md): ticks with an ego that stops and goes take a third as long, and
+# as many are met; with 0.25 s, or wherever the trigger comes, fewer are.
 _MOVES_S, _SOON_S = 0.5, 1.0
 
 

@@ -34,7 +34,8 @@ _LONGEST_ROAD_M = 1e5
 _SHORTEST_PIECE_M = 1e-6  # rates of change along anything shorter would overflow
 _LONGEST_LANES_M = 1e7
 _SPEED_UNITS_MPS = {"m/s": 1.0, "km/h": 1.0 / 3.6, "kmh": 1.0 / 3.6, "kph": 1.0 / 3.6, "mph": 0.44704}
-# Where a road tells its type and no limit; other types are taken for roads in town. Chosen, after the usual limits.
+# Where a road tells its type and no limit; other types are taken for roads in town. From Germany:
+# Autobahn-Richtgeschwindigkeits-V, 1 (130 km/h), and StVO, 3 (3) (100 km/h outside of towns).
 _USUAL_KMPH = {"motorway": 130, "rural": 100}
 _SHAPE_ATTRIBUTES: dict[Shape, tuple[str, ...]] = {
     "line": (),

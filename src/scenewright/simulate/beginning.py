@@ -15,6 +15,7 @@ from scenewright.errors import PolicyError
 from scenewright.motion.profile import Profile
 from scenewright.plan.planner import GOOD, Attempt, Planner
 from scenewright.plan.prediction import Predictor
+from scenewright.plan.preferences import Preferences
 from scenewright.program.expressions import Compare, Derived, DerivedKind, Knot, Number
 from scenewright.program.starts import AT_ONCE_S, HARD_MPSS, TAILGATES_S, kept_m, says_how_near
 from scenewright.program.structure import read_structure
@@ -23,7 +24,7 @@ from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.roads.conflicts import shared_offset_m
 from scenewright.roads.grounding import Scene
 from scenewright.simulate.builtin import BuiltIn
-from scenewright.simulate.ego_start import EgoFirstState, ego_starts
+from scenewright.simulate.ego_start import SHIFTS, EgoFirstState, ego_starts
 from scenewright.simulate.heroes import HeroDriver
 from scenewright.simulate.port import Start
 from scenewright.simulate.world import World
@@ -36,8 +37,6 @@ from scenewright.units import pin
 _SAME_ROAD_M = 1.0
 # Newton steps after which nothing but a last resort is tried: of 160 cases of the benchmark none did well after more.
 _MOST_STEPS = 700
-_SURELY_S = 0.5  # by which an outcome is to come later than it has to
-_SHIFTS = 4  # of a start, until an ego that slows down for a bend is where it is to be
 
 
 def first_plan(
@@ -98,13 +97,14 @@ def _plan_from(world: World, start: EgoFirstState, limits: Mapping[int, Limits],
     Likewise, as far as nothing tells where it is before its outcome, where that would come too soon.
     """
     found = _planned(world, world.planned, start, limits, predictor)
-    late_s = found.attempt.missed.late_s
+    late_s, surely_s = found.attempt.missed.late_s, Preferences().order_s
     if late_s > 0.0 and found.attempt.is_good and _is_anywhere(world):
-        later = replace(start, s_m=start.s_m - (late_s + _SURELY_S) * start.speed_mps)
+        later = replace(start, s_m=max(0.0, start.s_m - (late_s + surely_s) * start.speed_mps))
         found = min(found, _planned(world, world.planned, later, limits, predictor), key=lambda each: each.rank)
     if not found.saved_from:
         return found
-    return _planned(world, _kept_apart(world.planned, found.saved_from, start.speed_mps), start, limits, predictor)
+    apart = _kept_apart(world.planned, found.saved_from, start.speed_mps)
+    return _planned(world, apart, found.start, limits, predictor)
 
 
 def _is_anywhere(world: World) -> bool:
@@ -212,7 +212,7 @@ def _starts(world: World, predictor: Predictor) -> Iterator[EgoFirstState]:
     first = {(EGO, world.scene.program.ego.sketch.knots[0])}
     if name is not None and not any(each.moments == first and each.weights[EGO][0] for each in conditions):
         there_m = motion.state(then_s := motion.knot_times_s[name])[0]
-        for _ in range(_SHIFTS):
+        for _ in range(SHIFTS):
             foreseen = predictor.predict([(0.0, start.s_m, start.speed_mps, start.accel_mpss)])
             start = replace(start, s_m=max(0.0, start.s_m + there_m - foreseen.state(then_s)[0]))
     yield start

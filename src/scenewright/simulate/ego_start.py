@@ -17,8 +17,11 @@ from scenewright.solve.arrival import LinearCondition, ego_knots_between_s
 from scenewright.solve.limits import MOVING_MPS, Limits
 
 _RUN_UP_M = 90.0
-_LEAD_S = 8.0  # before it comes to its first place, where the program does not say when that is
-_TOLD_S, _SHIFTS = 1e-6, 4  # of a start, until an ego comes to its place when it is told to
+_LEAD_S = 8.0  # before it comes to its first place, where the program does not say when that is; chosen
+_ROUNDING_S = 1e-6
+# Of a start, until an ego comes to its place when it is told to. Measured: where the road is straight one is exact;
+# chosen for bends.
+SHIFTS = 4
 _STEP_S = 0.05
 _SLOWEST_MPS = 0.5
 # Of the natural speed, for an ego whose speed the orchestrator may choose: natural first.
@@ -71,7 +74,7 @@ class _Way:
         least_s, most_s = 0.0, math.inf
         if comes is not None:
             least_s, most_s = ego_knots_between_s(scene)[next(name for who, name in comes.moments if who == EGO)]
-        lead_s, is_told = min(max(_LEAD_S, least_s), most_s), most_s - least_s < _TOLD_S
+        lead_s, is_told = min(max(_LEAD_S, least_s), most_s), most_s - least_s < _ROUNDING_S
         return cls(begins, comes, lead_s, is_told, landmarks.get("intersection", 0.5 * landmarks["route_end"]))
 
     def start_m(self, speed_mps: float) -> float:
@@ -85,7 +88,7 @@ class _Way:
         """Return a start from which the policy, alone on the road, comes to its place when the program says."""
         if self.begins is not None or self.comes is None or not self.is_told:
             return start
-        for _ in range(_SHIFTS):
+        for _ in range(SHIFTS):
             ego.reset(start.s_m, start.speed_mps)
             steps = max(1, round(self.lead_s / _STEP_S))
             for step in range(steps):

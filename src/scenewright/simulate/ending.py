@@ -20,12 +20,11 @@ from scenewright.solve.plan import PlanWorld
 from scenewright.solve.proofs.events import LONGEST_S
 
 LONGEST_RUN_S = float(LONGEST_S)  # what comes later is refuted before anything is driven
-_AFTER_HEROES_S = 2.0
-_SEEN_S = 0.5  # beyond what a stand has to last, for it to be seen to
-_WAIT_FOR_EGO_S = 10.0
-_STALLED_S, STANDS_MPS = 20.0, 0.1
-_MOVES_MPS = 0.5
-ROUTE_END_M = 3.0  # who hardly moves so near to the end of its road has come to it
+# What is shown after the last knot, and how long an ego is waited for that has yet to pass, or that stands; chosen.
+_AFTER_HEROES_S, _WAIT_FOR_EGO_S, _STALLED_S = 2.0, 10.0, 20.0
+_SEEN_S = 0.5  # beyond what a stand has to last, for it to be seen to; chosen
+STANDS_MPS, _MOVES_MPS = 0.1, 0.5  # that of the manner; chosen
+ROUTE_END_M = 3.0  # who hardly moves so near to the end of its road has come to it: policies stop short of it; chosen
 
 
 @dataclass(slots=True)
@@ -35,10 +34,12 @@ class Ending:
     scene: Scene
     _told: list[ex.Term] = field(init=False)
     _meets: dict[int, str] = field(init=False)
+    _values: dict[str, float] = field(init=False)
     _ego_moved_s: float = field(init=False, default=0.0)
 
     def __post_init__(self) -> None:
         self._told, self._meets = _told_times(self.scene.program), _meets_ego(self.scene.program)
+        self._values = {name: float(value) for name, value in self.scene.parameters.items()}
 
     def is_now(self, plans: Mapping[int, Profile], now: Snapshot) -> bool:
         """Whether the run is over; to be asked at every step.
@@ -67,7 +68,7 @@ class Ending:
 
     def _told_s(self, plans: Mapping[int, Profile]) -> float:
         """Return the latest time that the program tells, as planned (s)."""
-        world = PlanWorld(self.scene, plans, {name: float(value) for name, value in self.scene.parameters.items()})
+        world = PlanWorld(self.scene, plans, self._values)
         return max((at_s for time in self._told if isfinite(at_s := term_value(time, world))), default=0.0)
 
     def _any_turning(self, now: Snapshot) -> bool:

@@ -5,16 +5,22 @@ from __future__ import annotations
 import re
 from fractions import Fraction
 
+import numpy as np
 import pytest
 from planted import Motion, Planted, lowered, plant
 from posed import violation
+from scipy.optimize import linprog
 
-from scenewright.solve.proofs.events import Events
+from scenewright.program.text import parse_program
+from scenewright.roads.grounding import ground
+from scenewright.roads.load import load_map
+from scenewright.solve.limits import limits_on
+from scenewright.solve.proofs.events import EgoBounds, Events
 from scenewright.solve.proofs.lowering import Lowering
 from scenewright.solve.proofs.polynomials import resting_on
 from scenewright.solve.proofs.refinement import Refinement
 from scenewright.solve.proofs.refuters import SOLVERS
-from scenewright.solve.proofs.relaxation import relaxation
+from scenewright.solve.proofs.relaxation import EVEN_RATE, relaxation
 
 HEAD = """Actor 0 (ego):
 - W
@@ -145,3 +151,55 @@ def test_cores_name_what_makes_a_law_narrower(constraint: str) -> None:
     assert "probe" in found
     clashing = resting_on(formulas, found)
     assert SOLVERS.called("z3").ask(events.unknowns, clashing, 5.0).kind == "refuted", "what is named clashes by itself"
+
+
+def furthest_m(lasts_s: float, ramp_s: float, law: tuple[float, float], rate_mpss: float, side: int) -> float:
+    """Return how much further (1), or less far (-1), than evenly one comes at most in a piece of one rate, as judged.
+
+    A linear program: the mean is that number, and where three ramps fit in, so is each part as long as one, to 0.25.
+    """
+    part = 12
+    cells = round(lasts_s / ramp_s * part)
+    step_s, rows = lasts_s / cells, list[np.ndarray]()
+    for first in range(part, cells - 2 * part + 1):
+        row = np.zeros(cells)
+        row[first : first + part] = 1.0 / part
+        rows += [row, -row]
+    bounds = [rate_mpss + 0.25, 0.25 - rate_mpss] * (len(rows) // 2)
+    way = np.arange(cells - 0.5, -0.5, -1.0) * step_s**2
+    found = linprog(
+        -side * way, np.array(rows) if rows else None, bounds or None,
+        np.full((1, cells), 1.0 / cells), [rate_mpss], [law] * cells,
+    )  # fmt: skip
+    return float(way @ found.x - 0.5 * rate_mpss * lasts_s**2)
+
+
+@pytest.mark.parametrize("ramp_s", ["0.3", "2"])
+@pytest.mark.parametrize("rate_mpss", [-0.5, -2.0, -6.0])
+@pytest.mark.parametrize("ramps", [1.5, 2.9, 3.0, 6.0, 12.0])
+def test_nobody_comes_further_at_one_rate_than_a_proof_takes_for_granted(
+    ramp_s: str, rate_mpss: float, ramps: float
+) -> None:
+    text = f"manner:\n- ramp_s = {ramp_s}\n\n{HEAD}A1a(dec) == {rate_mpss}\n"
+    scene = ground(parse_program(text), load_map("t_intersection"))
+    events = Events(
+        scene, {actor: limits_on(route, scene.road_map) for actor, route in scene.routes.items()}, EgoBounds()
+    )
+    lowering = Lowering(events)
+    all_lowered = lowering.lower(scene.program.constraints)  # makes the narrowings
+    rules = relaxation(events, lowering.narrowings, all_lowered)
+    (even,) = (each for each in rules if each.origin == EVEN_RATE)
+    lasts_s, first, last = ramps * float(ramp_s), events.knot(1, "t1"), events.knot(1, "t2")
+    begins, ends = events.state(1, first), events.state(1, last)
+    for side in (1, -1):
+        more_m = furthest_m(lasts_s, float(ramp_s), (-8.0, 0.0), rate_mpss, side)
+        point = [0.0] * len(events.unknowns)
+        for value, number in (
+            (begins.speed, -rate_mpss * lasts_s),
+            (ends.place, -0.5 * rate_mpss * lasts_s**2 + more_m),
+            (events.times[last], lasts_s),
+        ):
+            point[value.number] = number
+        assert violation(even.formula, point) <= 1e-6
+        point[ends.place.number] += side * 10.0 * (3.0 + lasts_s**2)
+        assert violation(even.formula, point) > 0.0

@@ -35,7 +35,6 @@ from scenewright.solve.tolerances import TIGHT
 
 EVEN_RATE = "a rate that is told of a piece lasts all through it, but for a moment at either end"
 _CERTAIN = 1e-9
-_SHORT_M2 = Fraction(1)  # twice what one may be off in a piece that is too short for more than its mean to be looked at
 
 
 def relaxation(events: Events, narrowings: Sequence[Narrowing], constraints: Sequence[Named]) -> list[Named]:
@@ -69,7 +68,10 @@ def _order_of_knots(events: Events) -> Iterator[Named]:
 def _evenly(events: Events, piece: Narrowing) -> Named:
     """Return how far somebody comes at one rate, as the judge looks at that: nearly what both speeds tell.
 
-    In its ramps it may be faster or slower by as much as the law lets it, all through by a tight tolerance.
+    Every part as long as a ramp, from the first ramp's end on, has that rate but for a tight tolerance. So by the end
+    of the first such part nobody is further off the even speed than two ramps at the law's rates lead, on average one
+    and a half; from part to part no more than the tolerance comes on top. The same holds backwards from the end.
+    A piece of less than three ramps, of which the mean alone is looked at, is within that, too.
     """
     a, b = events.state(piece.actor, piece.first), events.state(piece.actor, piece.last)
     own = (
@@ -79,7 +81,7 @@ def _evenly(events: Events, piece: Narrowing) -> Named:
     )
     law, lasts = next(own, events.law_of(piece.actor)), events.times[piece.last] - events.times[piece.first]
     off, change = (b.place - a.place) * 2 - (a.speed + b.speed) * lasts, b.speed - a.speed
-    roughly, ramps_s = lasts * lasts * TIGHT["acceleration"] + _SHORT_M2, 2 * events.scene.program.manner.ramp_s
+    roughly, ramps_s = lasts * lasts * TIGHT["acceleration"], 3 * events.scene.program.manner.ramp_s
     most = [room * ramps_s + roughly for room in (change - lasts * law.rate_low, lasts * law.rate_high - change)]
     held = every([compare("<=", one, each) for each in most for one in (off, -off)])
     return Named(held, EVEN_RATE, (piece.origin,))
