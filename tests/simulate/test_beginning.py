@@ -185,3 +185,19 @@ def test_an_ego_that_nothing_places_begins_so_far_back_that_the_outcome_can_come
     text = f'scenario "by the clock"\n{actors}\nConstraints:\n{rest}'
     result = orchestrate(Request(text, ego=ego, takes=1))
     assert result.status == "success"
+
+
+def test_the_ego_begins_in_nobodys_place() -> None:
+    """Its road begins so near that whoever comes behind would begin in the place of an ego of natural speed."""
+    text = program(
+        "W",
+        "t0, go, t1, dec, t2",
+        "A0(t1) == A1(t1)\nA0x(t1) == stop_line - 200\nA1x(t1) == stop_line - 235\nA1v(t2) == 3",
+    )
+    world = world_of(text)
+    planned = first_plan(world, world.predictor)
+    assert planned is not None
+    planner, start, attempt = planned
+    behind_m = start.s_m - planner.plan.profiles[1].state(0.0)[0]
+    assert attempt.is_good
+    assert behind_m > VEHICLE_LENGTH_M

@@ -71,24 +71,25 @@ def first_plan(
 
 @dataclass(frozen=True, slots=True)
 class _Planned:
-    """A start, what is planned from it, and the heroes that only hard braking saves the ego from."""
+    """A start, what is planned from it, whom only hard braking saves the ego from, and whether it touches a hero."""
 
     planner: Planner
     start: EgoFirstState
     attempt: Attempt
     saved_from: list[int]
+    touches: bool
 
     @property
     def is_good(self) -> bool:
-        """Whether it does what was asked, and nobody is saved."""
-        return self.attempt.is_good and not self.saved_from
+        """Whether it does what was asked, and nobody is saved or touched."""
+        return self.attempt.is_good and not self.saved_from and not self.touches
 
     @property
     def rank(self) -> tuple[bool, bool, float, float]:
-        """How it compares with others: nobody is saved, it does what was asked, is hardly late, misses little."""
+        """How it compares with others: nobody is saved or touched, it does what it should, misses little."""
         missed = 0.0 if self.attempt.is_good else round(self.attempt.missed.by / GOOD)
         late_s = round(max(0.0, self.attempt.missed.late_s), 1)
-        return bool(self.saved_from), not self.attempt.is_good, late_s, missed
+        return bool(self.saved_from) or self.touches, not self.attempt.is_good, late_s, missed
 
 
 def _plan_from(world: World, start: EgoFirstState, limits: Mapping[int, Limits], predictor: Predictor) -> _Planned:
@@ -122,12 +123,15 @@ def _planned(
     structure = read_structure(scene.program)
     planner = Planner(scene, structure, limits, predictor, linear_conditions(scene, structure))
     attempt = planner.begin((0.0, start.s_m, start.speed_mps, start.accel_mpss))
-    return _Planned(planner, start, attempt, _saved_from(world, start, attempt))
+    return _Planned(planner, start, attempt, *_saved_and_touched(world, start, attempt))
 
 
-def _saved_from(world: World, start: EgoFirstState, attempt: Attempt) -> list[int]:
-    """Return the heroes that the ego begins too near to, if not asked to, where its policy brakes hard at once."""
-    scene, near = world.scene, []
+def _saved_and_touched(world: World, start: EgoFirstState, attempt: Attempt) -> tuple[list[int], bool]:
+    """Return the heroes too near ahead of it, if the ego's policy brakes hard at once, and whether it touches one.
+
+    Not those that the program asks to begin so.
+    """
+    scene, near, touches = world.scene, list[int](), False
     heroes = {hero.id: attempt.plan.profiles[hero.id] for hero in scene.program.heroes}
     begins = Start.of(scene, world.ego, (start.s_m, start.speed_mps), heroes)
     ego = begins.first[EGO]
@@ -137,10 +141,13 @@ def _saved_from(world: World, start: EgoFirstState, attempt: Attempt) -> list[in
             continue
         ahead_m, closing_mps = there.s_m + offset_m - ego.s_m, max(0.0, ego.speed_mps - there.speed_mps)
         # Who is still on another road is further away than along the road that the two will share.
-        same_road = math.hypot(there.x_m - ego.x_m, there.y_m - ego.y_m) < ahead_m + _SAME_ROAD_M
-        if same_road and 0.0 < ahead_m < VEHICLE_LENGTH_M + kept_m(ego.speed_mps, closing_mps):
+        if math.hypot(there.x_m - ego.x_m, there.y_m - ego.y_m) >= abs(ahead_m) + _SAME_ROAD_M:
+            continue
+        if abs(ahead_m) < VEHICLE_LENGTH_M:
+            touches = True
+        elif 0.0 < ahead_m < VEHICLE_LENGTH_M + kept_m(ego.speed_mps, closing_mps):
             near.append(hero)
-    return near if near and _brakes_hard(begins, heroes, world.rates.step_s) else []
+    return (near if near and _brakes_hard(begins, heroes, world.rates.step_s) else []), touches
 
 
 def _brakes_hard(start: Start, heroes: Mapping[int, Profile], step_s: float) -> bool:
