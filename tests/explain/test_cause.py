@@ -194,28 +194,3 @@ A1x(t2) == conflict_point + 8
     assert found.kind == "prediction"
     broken = max(result.run.replans, key=lambda tick: tick.tolerance)
     assert found.evidence["planned_s"] < broken.time_s
-
-
-def test_where_each_waits_for_the_other_it_is_said_that_the_ego_stood() -> None:
-    """The one on the road stands before the driveway until the ego has passed, and that one gives way to it."""
-    program = """
-Actor 0 (ego):
-- S, W
-- [t0, go, t1, go, t2]
-
-Actor 1 (hero):
-- W
-- [t0, go, t1, dec, t2, stop, t3, acc, t4]
-
-Constraints:
-A0(t1) == A1(t1)
-A0x(t1) == stop_line - 15
-A1x(t1) == conflict_point - 28
-A1v(t2) == 0
-A1x(t2) == conflict_point - 9
-A0x(t2) == conflict_point
-A0(t2) < A1(t3)
-A1v(t4) == 6
-"""
-    found = cause(orchestrate(Request(program, ego="idm", takes=1)))
-    assert found.text.startswith("The ego stood from ")

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import asdict
 
+from scenewright.explain.cut_short import cut_short, never_came
 from scenewright.explain.evidence import (
     Finding,
     came_too_late,
@@ -26,7 +27,6 @@ from scenewright.plan.planner import GOOD
 from scenewright.program.expressions import Temporal, walk
 from scenewright.program.structure import Role, actors_of
 from scenewright.program.types import EGO, Actor, Constraint, Program
-from scenewright.simulate.ending import LONGEST_RUN_S, ROUTE_END_M, STANDS_MPS
 from scenewright.simulate.loop import Run
 from scenewright.simulate.world import World
 from scenewright.solve.feasibility import Feasibility
@@ -43,8 +43,8 @@ def cause_of(world: World, run: Run, verdict: Verdict, tolerance: Tolerance, pro
     2. *order*: all was well but who came first.
     3. *authority*: from the last plan on that would have done, a hero was at a limit of its motion.
     4. *prediction*: the ego did not drive as that plan foresaw.
-    5. *plan*: none of these; so it was planned. A run that fails by how it begins is of this kind before all that
-       came of it.
+    5. *plan*: none of these; so it was planned. A run that fails by how it begins, or by nothing but what lies beyond
+       its end, is of this kind before all that came of it.
     """
     missed = [condition for condition in verdict.conditions if not condition.holds_at(tolerance)]
     asked = {constraint.id: constraint for constraint in world.scene.program.constraints}
@@ -65,6 +65,9 @@ def cause_of(world: World, run: Run, verdict: Verdict, tolerance: Tolerance, pro
     if begun and (begun[0].id == "start" or len(begun) == len(missed)):
         return _cause("plan", _begun_so(run, begun[0]))
     hero = _hero(world.scene.program, failed)
+    ended = cut_short(world, run, hero)
+    if ended is not None and never_came(world, verdict, missed):
+        return _cause("plan", ended)
     # What is asked of both after the trigger is missed by how the ego then drives; all else by what came to be at it.
     later = len(failed) == len(missed) and all(world.structure.roles[each.id] is Role.OUTCOME for each in failed)
     knots_s = run.last_plan.profiles[hero.id].knot_times_s
@@ -83,7 +86,7 @@ def cause_of(world: World, run: Run, verdict: Verdict, tolerance: Tolerance, pro
         return _cause("authority", Finding(f"{limit.text}, and {why}", {**otherwise.evidence, **limit.evidence}))
     if limit is not None:
         return _cause("authority", limit)
-    left = otherwise or _planned_so(world, run, hero, until_s, missed, does_all=not failed)
+    left = otherwise or ended or _planned_so(world, run, hero, until_s, missed, does_all=not failed)
     if in_way is not None:
         left = Finding(f"{left.text}; {in_way}", {**left.evidence, "in_way": asdict(in_way)})
     return _cause("prediction" if otherwise else "plan", left)
@@ -153,23 +156,6 @@ def _planned_so(
     """
     planned = [tick for tick in run.replans if tick.foreseen is not None and tick.time_s < until_s]
     last = planned[-1] if planned else run.replans[0]
-    acts_s, end_s = max(run.last_plan.profiles[hero.id].knot_times_s.values()), run.trace.duration_s
-    if acts_s > end_s:
-        at_end = [
-            called(actor.name)
-            for actor in (world.scene.program.ego, hero)
-            if run.trace.actors[actor.name].s_m[-1] >= world.scene.routes[actor.id].landmarks["route_end"] - ROUTE_END_M
-        ]
-        who = called(hero.name)
-        ego = run.trace.actors[world.scene.program.ego.name]
-        moved_s = float(ego.time_s[ego.speed_mps > STANDS_MPS].max(initial=0.0))
-        stood = f"the ego stood from {moved_s:.1f} s on, and the run ended" if moved_s < end_s else "the run ended"
-        why = f"{at_end[0]} came to the end of its road" if at_end and end_s < LONGEST_RUN_S else stood
-        then = "it" if at_end[:1] == [who] else who
-        return Finding(
-            f"{why} at {end_s:.1f} s, before {then} was to have done all of it at {acts_s:.1f} s",
-            {"hero": hero.name, "end_s": end_s, "planned_s": acts_s, "at_the_end_of_its_road": bool(at_end)},
-        )
     if does_all or last.tolerance <= GOOD:
         return Finding(
             f"the last plan, of {last.time_s:.1f} s, does all that was asked of {called(hero.name)}, as far as it was "
