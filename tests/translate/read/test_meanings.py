@@ -153,3 +153,47 @@ def test_an_amount_set_off_by_commas_before_a_standstill_is_asked_about() -> Non
 def test_who_is_compared_by_name_alone_does_the_same(said: str) -> None:
     found = formulas(reading_of(f"{MEETS}the hero drives on and passes the conflict point {said}."))
     assert {"A1x(t2) == conflict_point", "A0x(t2) == conflict_point", "A0(t2) > A1(t2)"} <= found
+
+
+@pytest.mark.parametrize(
+    ("said", "reached"),
+    [
+        ("brakes to a stop and then drives on at 5 m/s.", "A1v(t4) == 5"),
+        ("stops, waits for 2 s and drives on at 5 m/s until it passes the junction.", "A1v(t4) == 5"),
+        ("brakes to a stop. When the ego is at the junction, the hero drives on at v_mps.", "A1v(t4) == v_mps"),
+        ("comes to a halt. Then at once it goes on with at least 20 km/h.", "A1v(t3) >= 50/9"),
+        ("stops and then drives on at 5 m/s. When the ego is at the junction, it speeds up.", "A1v(t4) == 5"),
+        ("stops and then drives on 2 m/s slower than the ego.", "A1v(t4) == A0v(t2) - 2"),
+    ],
+)
+def test_who_sets_off_from_rest_comes_to_a_speed_and_has_none_all_through(said: str, reached: str) -> None:
+    reading = reading_of(f"{ALONG}When the gap is 30 m, the hero {said}")
+    assert reached in formulas(reading)
+    assert not any("A1v(go2)" in each for each in formulas(reading))
+
+
+def test_who_sets_off_from_rest_may_be_held_below_a_speed_but_keeps_none() -> None:
+    text = ALONG + "When the gap is 30 m, the hero stops and then drives on "
+    assert "A1v(go2) <= 5" in formulas(reading_of(text + "at at most 5 m/s."))
+    assert reading_of(text.removesuffix("drives on ") + "continues at a constant speed of 5 m/s.").kind == "refused"
+    waits = "The ego drives west. The hero is ahead of the ego. Initially, the hero stands. When the gap is 20 m, "
+    assert "A1v(t2) == 5" in formulas(reading_of(waits + "the hero drives on at 5 m/s."))
+    drives = ALONG + "When the gap is 30 m, the hero drives on at 5 m/s."
+    assert "A1v(go2) == 5" in formulas(reading_of(drives))
+
+
+@pytest.mark.parametrize("text", ["When the gap is 12 m.", "The hero brakes. Trigger: the gap is 12 m.",
+                                  "When the gap is 12 m. When the ego stands, the hero brakes.",
+                                  "When the gap is 12 m. Once the ego stands. The hero brakes."])  # fmt: skip
+def test_a_moment_at_which_nothing_is_done_is_not_lost(text: str) -> None:
+    reading = reading_of(ALONG + text)
+    assert (reading.kind, reading.told[0]) == ("refused", "it is not said what happens then")
+
+
+def test_what_is_said_between_a_moment_and_what_happens_then_does_not_part_them() -> None:
+    found = formulas(
+        reading_of(ALONG + "When the gap is 12 m. At the start, the ego drives at 8 m/s. The hero brakes.")
+    )
+    assert {"gap(A0, A1, t1) == 12", "A0v(t0) == 8", "A1v(t2) == 0"} <= found
+    timed = formulas(reading_of(ALONG + "Trigger: 5 s after the start. Action: the hero brakes."))
+    assert "A1(t1) == 5" in timed

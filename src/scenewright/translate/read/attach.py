@@ -64,10 +64,11 @@ def _attach(taken: Taken) -> None:
         raise taken.left_over(last)
     if "goes" in taken.states and clause.deed is None and not (clause.facts or clause.measures or clause.flags):
         clause.deed = st.Verb.DRIVE
-    if clause.subject is None and (clause.measures or clause.rate):
+    if clause.subject is None and (clause.measures or clause.rates):
         raise taken.left_over(taken.chunks[0])
     clause.measures = [_of(each, clause.subject) for each in clause.measures]
-    clause.rate = clause.rate and _of(clause.rate, clause.subject)
+    clause.rates = [_of(each, clause.subject) for each in clause.rates]
+    clause.agree()
 
 
 def _find_subject(taken: Taken) -> None:
@@ -81,6 +82,8 @@ def _find_subject(taken: Taken) -> None:
     if clause.subject is None and taken.quantity in ("gap", "headway", "time to collision") and not taken.targets:
         taken.pair = taken.pair or taken.people.pair(taken.chunks[0])  # "when the gap is 20 m"
     if taken.pair is not None:
+        if clause.subject not in (None, *taken.pair):
+            raise taken.left_over(taken.chunks[taken.subject_at])  # "the van has a gap between the ego and the hero"
         rear = taken.people.rear(*taken.pair, clause.quote)
         clause.subject, front = rear, next((each for each in taken.pair if each != rear), rear)
         taken.targets.append(Target(0, "behind", taken.chunks[-1], other=front))
@@ -124,7 +127,7 @@ def _give(taken: Taken, at: int, op: st.Operator, chunk: Chunk) -> None:
             raise taken.left_over(chunk)  # nobody brakes with an acceleration
         taken.measure(chunk, st.Measure(IT, st.Quantity.RATE, op, amount, opposite=slowing))
         if clause.deed is not None:
-            clause.rate = clause.measures.pop()
+            clause.rates.append(clause.measures.pop())
         return
     free = [target for target in taken.targets if not target.used]
     target = next((each for each in free if each.at > at), free[-1] if free else None)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 import tomllib
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from fractions import Fraction
 from functools import lru_cache
@@ -31,6 +31,7 @@ _TOKEN = re.compile(
     r"|(?P<mark>[.,;:!?()\[\]–—\"“”])"
     r"|(?P<other>\S)"
 )
+_LINE = re.compile(r"([ \t]*)([-*•]|\d{1,2}[.)])?")  # how a line begins: how far in, and the mark of an item
 _LANE = r"[A-Za-z0-9_]+(?:\.-?[A-Za-z0-9_]+)+"
 _LANES = re.compile(rf"follows? the lanes ({_LANE}(?:, {_LANE})*)")
 _NUMBERS = "zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen"
@@ -136,21 +137,89 @@ def sentences(text: str) -> list[list[Chunk]]:
             found.append([])
         else:
             found[-1].append(chunk)
-    return [chunks for each in found if (chunks := _described(_labelled(each, text)))]
+    return [chunks for each in _headed([each for each in found if each], text) if (chunks := _described(each))]
 
 
-def _labelled(chunks: list[Chunk], text: str) -> list[Chunk]:
-    """Take what a label in front of a colon says: whom, when, or nothing (``Action: ...``)."""
+@dataclass(slots=True)
+class _Heading:
+    """A label alone on its line; what it says is said of each item of the list below it."""
+
+    label: list[Chunk]
+    depth: int
+    items: list[list[Chunk]] = field(default_factory=list)
+    inner: _Heading | None = None  # an item that heads a list of its own
+
+    def take(self, said: list[Chunk], depth: int) -> None:
+        """Take what an item says, as said of whom the headings above it name."""
+        self.inner = self.inner if self.inner is not None and self.inner.depth < depth else None
+        above = [*self.label, *(self.inner.label if self.inner is not None else ())]
+        named = {each for item in self.items for each in item}
+        people = [_at(each, said[0]) if each in named else each for each in above if each.kind != "link"]
+        opens = next((each for each in said if each.kind not in ("det", "filler", *_TRAITS)), said[0])
+        said = said[1:] if people and said[0].value == "it" else said
+        self.items.append(said if opens.kind in ("actor", "name") else [*people, *said])
+
+    def sentences(self) -> Iterator[list[Chunk]]:
+        """Return a sentence for each item; the items of a moment are one, and so is a heading without any."""
+        links = [each for each in self.label if each.kind == "link"]
+        if not self.items:
+            yield self.label
+        elif links and links[0].value == "when":
+            found = links
+            for item in self.items:
+                joint = _at(Chunk("joint", "and", 0, 0, "and"), item[0])
+                found = [*found, *([joint] if found != links else []), *_without_when(links, item)]
+            yield found
+        else:
+            for item in self.items:
+                yield [*(_at(each, item[0]) for each in links), *item]
+
+
+def _at(chunk: Chunk, where: Chunk) -> Chunk:
+    """Return a chunk as one that says the same right before another one, where it is not written."""
+    return replace(chunk, start=where.start, end=where.start)
+
+
+def _headed(found: list[list[Chunk]], text: str) -> Iterator[list[Chunk]]:
+    """Give what labels say to what they stand in front of, or above."""
+    heading: _Heading | None = None
+    for chunks in found:
+        label, said = _labelled(chunks)
+        line = _LINE.match(text, text.rfind("\n", 0, chunks[0].start) + 1)
+        depth = len(line[1]) + (line[2] is not None) if line is not None else 0
+        is_new = any(each.kind == "link" for each in label or ())
+        if heading is not None and depth > heading.depth and not is_new:
+            if said:
+                heading.take([*(label or ()), *said], depth)
+            else:
+                heading.inner = _Heading(label or [], depth)
+            continue
+        if heading is not None:
+            yield from heading.sentences()
+        heading = None if said else _Heading(label or [], depth)
+        if heading is None:
+            yield [*(label or ()), *said]
+    if heading is not None:
+        yield from heading.sentences()
+
+
+def _labelled(chunks: list[Chunk]) -> tuple[list[Chunk] | None, list[Chunk]]:
+    """Return what a label in front of a colon says (whom, when, or nothing, ``Action: ...``), and what is behind it."""
     colon = next((number for number, each in enumerate(chunks[:6]) if each.text == ":"), 0)
     if not colon:
-        return chunks
+        return None, chunks
     people = [each for each in chunks[:colon] if each.kind == "actor"]
     words = " ".join(each.text.lower() for each in chunks[:colon] if each.kind not in ("actor", "filler", "possessive"))
     kind = vocabulary().labels.get(words)
     if kind is None and (words or not people):
-        return chunks
-    first = replace(chunks[0], kind="link", value="when" if kind == "when" else "start")
-    return [*people, *([first] if kind in ("when", "start") else []), *chunks[colon + 1 :]]
+        return None, chunks
+    first = [replace(chunks[0], kind="link", value=kind)] if kind in ("when", "start", "then") else []
+    return [*people, *first], _without_when(first, chunks[colon + 1 :])
+
+
+def _without_when(links: list[Chunk], said: list[Chunk]) -> list[Chunk]:
+    """Return what is said under a label without a "when" that the label has said."""
+    return said[1:] if [each.value for each in (*links[:1], *said[:1])] == ["when", "when"] else said
 
 
 def _described(chunks: list[Chunk]) -> list[Chunk]:

@@ -6,14 +6,15 @@ or an `UnknownWordsError` with the words that nothing could be made of. Order de
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field, fields, replace
 
 from scenewright.errors import UnknownWordsError
 from scenewright.program.arithmetic import JUST_BEFORE_M
 from scenewright.program.types import EGO
 from scenewright.translate import story as st
-from scenewright.translate.compile import COMPASS
-from scenewright.translate.phrases import OTHERWISE
+from scenewright.translate.compile import COMPASS, counted_down
+from scenewright.translate.phrases import OTHERWISE, amount
 from scenewright.translate.read.cast import Cast
 from scenewright.translate.read.chunks import Chunk
 
@@ -36,6 +37,8 @@ _INITIAL = (("at", "link", "start"), ("with", "link", "start"))  # "with an init
 class Clause:
     """What one clause says.
 
+    Amounts are gathered in lists, so that none takes the place of another; `agree` refuses those that do not fit.
+
     `flags` are: ``standstill``, ``while`` (the end is open), ``to`` a speed, ``first``, ``start``, ``kept`` (its
     speed), ``way`` (it is open), ``falls`` (an amount that is reached), ``yields``, ``insists``.
     """
@@ -47,8 +50,8 @@ class Clause:
     ordinal: int = 0
     measures: list[st.Measure] = field(default_factory=list)
     joined: list[st.Compound] = field(default_factory=list)  # by "either", "both", "if": of whomever they are
-    rate: st.Measure | None = None
-    times: dict[str, tuple[st.Operator, st.Amount]] = field(default_factory=dict)
+    rates: list[st.Measure] = field(default_factory=list)
+    times: dict[str, list[tuple[st.Operator, st.Amount]]] = field(default_factory=dict)
     facts: dict[str, str] = field(default_factory=dict)
     flags: set[str] = field(default_factory=set)
     relations: list[st.Relation] = field(default_factory=list)
@@ -69,6 +72,37 @@ class Clause:
         """Whether it says that its subject comes to a place, and nothing else."""
         told = self.says_more_than("measures") or not self.measures or "event" not in self.notes
         return not told and all(st.is_event(each) for each in self.measures)
+
+    def agree(self) -> None:
+        """Refuse two amounts for one thing."""
+        agree((*self.measures, *self.rates), self.quote)
+        for several in self.times.values():
+            agree((st.Measure(IT, st.Quantity.ARRIVAL, *each) for each in several), self.quote)
+
+
+def agree(measures: Iterable[st.Measure], quote: st.Quote) -> None:
+    """Refuse, in the words of `quote`, two amounts for one thing, unless they are a lower and an upper bound of it."""
+    known: dict[object, list[st.Measure]] = {}
+    for each in measures:
+        same = known.setdefault((each.actor, each.quantity, each.place, each.other), [])
+        for other in same:
+            if each != other and {is_upper(each), is_upper(other)} != {True, False}:
+                both = " and ".join(_amount_of(one) for one in (other, each))
+                fix = "say one of them, or at least how much and at most how much"
+                raise UnknownWordsError(f"two amounts for one thing: {both}", found=quote.text, fix=fix)
+        same.append(each)
+
+
+def is_upper(measure: st.Measure) -> bool | None:
+    """Whether a measure bounds its quantity from above, or from below; None where it is exact."""
+    down = counted_down(measure.quantity, measure.opposite) and measure.amount is not None
+    return None if measure.op == "==" else (measure.op in ("<", "<=")) is not down
+
+
+def _amount_of(measure: st.Measure) -> str:
+    if measure.amount is not None:
+        return amount(measure.amount)
+    return measure.quote.text if measure.quote is not None else "none"
 
 
 @dataclass(slots=True)
@@ -145,7 +179,7 @@ class Taken:
                 clause.deed = value
             case "phase" if clause.phase is None:
                 clause.phase = value
-            case "ordinal":
+            case "ordinal" if all(each.kind != "ordinal" for each in self.chunks[: self.at]):
                 clause.ordinal = int(value)
             case "standstill" | "open" | "kept" | "order" | "yields" | "insists":
                 clause.flags.add(value)
@@ -175,11 +209,15 @@ class Taken:
         match chunk.kind:
             case "pronoun":
                 return chunk.value == "its"
+            case "bound" if following == "bound":  # "drops to less than 12 m", not "at least about 12 m"
+                return chunk.value == "falls"
             case "bound":
-                return following in ("amount", "no unit", "bound", "near") or self.peek()[1] == "as fast as"
+                return following in ("amount", "no unit", "near") or self.peek()[1] == "as fast as"
             case "link":  # "north, then south"
                 return chunk.value == "then" and before.kind == following == "heading"
-        return (chunk.kind, chunk.value, following) == ("joint", "and", "side")  # "across it and into the driveway"
+        is_and = (chunk.kind, chunk.value) == ("joint", "and")
+        both = before.kind == "amount" and self.peek()[1] in OPERATORS  # "at least 4 m/s^2 and at most 6 m/s^2"
+        return is_and and (both or following == "side")  # "across it and into the driveway"
 
     def bound(self) -> st.Operator:
         """Return the bound in front of the amount at `at`; one that is only reached is told, a vague one is asked."""
@@ -202,10 +240,11 @@ class Taken:
         amount = chunk.amount
         if amount is None:
             raise self.left_over(chunk)
-        if amount.dimension == "time" and lead == ("side", "for"):
-            self.clause.times["for"] = (op, amount)
+        lasts = lead == ("side", "for") or (lead == ("joint", "and") and "for" in self.clause.times)
+        if amount.dimension == "time" and lasts:
+            self.clause.times.setdefault("for", []).append((op, amount))
         elif (self.peek(1)[1], self.peek(2)[1]) == ("after", "the start"):
-            self.clause.times["after the start"] = (op, amount)
+            self.clause.times.setdefault("after the start", []).append((op, amount))
             self.at += 2
         else:
             self.amounts.append((self.at, op, chunk))
@@ -235,6 +274,8 @@ class Taken:
 
     def _between(self, chunk: Chunk) -> None:
         """Take "between the ego and the hero", "between them"."""
+        if self.pair is not None:
+            raise self.left_over(chunk)
         self.at += 1
         if self.peek(0)[0] == "pair":
             self.pair = self.people.pair(self.chunks[self.at])

@@ -212,7 +212,9 @@ class _Items:
         if clause.facts.get("turn", "straight") != "straight":
             self.turned.add(clause.subject)
         elif clause.subject in self.turned and "heading" in clause.facts and "headed" not in clause.flags:
-            clause.facts["destination_heading"] = clause.facts.pop("heading")  # "turns left out of it and goes east"
+            heading = clause.facts.pop("heading")  # "turns left out of it and goes east"
+            if clause.facts.setdefault("destination_heading", heading) != heading:
+                self.people.refuse("two headings are told", clause.quote)
         return clause
 
     def _is_fronted(self, start: int) -> bool:

@@ -36,7 +36,8 @@ class Doing:
     ends: int | None = None
     throughout: list[st.Measure] = field(default_factory=list)
     quote: st.Quote | None = None
-    duration: tuple[st.Operator, st.Amount] | None = None
+    lasts: list[tuple[st.Operator, st.Amount]] = field(default_factory=list)  # how long
+    reached: list[st.Measure] = field(default_factory=list)  # what is so at its end, whichever that is
 
 
 @dataclass(slots=True)
@@ -50,6 +51,7 @@ class Narrative(Cast):
     orders: list[st.Order] = field(default_factory=list)
     holds: list[st.Hold] = field(default_factory=list)
     pending: int | None = None  # a moment that the last sentence told, at which nobody does anything yet
+    awaits: st.Quote | None = None  # the sentence that told nothing but a moment: what happens then must follow
     kept: list[tuple[int, st.Quote]] = field(default_factory=list)  # who keeps the speed that it has at the start
     courtesies: list[tuple[int | None, str, st.Quote]] = field(default_factory=list)  # who yields, or does not
     parameters: list[Parameter] = field(default_factory=list)
@@ -61,6 +63,8 @@ class Narrative(Cast):
     def story(self) -> st.Story:
         """Return the story; deeds that are still open end at moments of their own."""
         self.actor(EGO)  # refuses a text that does not name it
+        self.pending = None
+        self.settle()
         for actor, quote in self.kept:
             self._keep(actor, quote)
         for who, courtesy, quote in self.courtesies:
@@ -68,8 +72,8 @@ class Narrative(Cast):
         for doing in self.doings:
             if doing.ends is None:
                 doing.ends = self.new_moment()
-            if doing.duration is not None:
-                self.orders.append(st.Order(doing.begins, doing.ends, *doing.duration, doing.quote))
+            self.add(doing.ends, doing.reached)
+            self.orders += [st.Order(doing.begins, doing.ends, *each, doing.quote) for each in doing.lasts]
         story = st.Story(
             tuple(self.actors[number] for number in sorted(self.actors)),
             tuple(self.moments),
@@ -90,6 +94,11 @@ class Narrative(Cast):
         later, either = "it comes after the ego's moments that were told before", "it may come before or after them"
         asked = f"How does this moment lie to the ego's others: {quote.text}"
         return self.ask(f"ego {quote.start}", asked, [either, later], 0, quote) == later
+
+    def settle(self) -> None:
+        """Refuse a moment of which it was to be said what happens then, and was not."""
+        if self.awaits is not None and self.pending is None:
+            self.refuse("it is not said what happens then", self.awaits, "say it in the next sentence")
 
     def _check(self, who: int | None, courtesy: str, quote: st.Quote) -> None:
         """Refuse a courtesy that no deed bears out."""
@@ -168,11 +177,11 @@ class Narrative(Cast):
         """Take "5 s after the start"."""
         if clause.times.keys() != {"after the start"}:
             self.refuse("it is not clear what lasts so long", clause.quote)
-        op, time = clause.times["after the start"]
-        if op == "==" and self.moments[moment].time is None:
-            self.moments[moment] = replace(self.moments[moment], time=time)
-        else:
-            self.orders.append(st.Order(st.START, moment, op, time, self.quote))
+        for op, time in clause.times["after the start"]:
+            if op == "==" and self.moments[moment].time is None:
+                self.moments[moment] = replace(self.moments[moment], time=time)
+            else:
+                self.orders.append(st.Order(st.START, moment, op, time, self.quote))
 
     def event(self, clause: Clause) -> int:
         """Return the moment of an event: a deed begins or ends, or something comes to be so."""
@@ -207,6 +216,12 @@ class Narrative(Cast):
     def is_owned(self, moment: int) -> bool:
         """Whether somebody begins or ends a deed at a moment."""
         return any(moment in (doing.begins, doing.ends) for doing in self.doings)
+
+    def is_at_rest(self, doing: Doing) -> bool:
+        """Whether somebody stands where it begins a deed."""
+        stood = any((each.actor, each.verb, each.ends) == (doing.actor, st.Verb.STAND, doing.begins)
+                    for each in self.doings)  # fmt: skip
+        return stood or st.standstill(doing.actor) in self.moments[doing.begins].conditions
 
     def begin(self, actor: int, verb: str, moment: int | None, leads: set[str]) -> Doing:
         """Let somebody begin a deed at a moment, or where the last one ended."""
@@ -259,9 +274,13 @@ def steady(actor: int, quote: st.Quote) -> st.Measure:
 def take_labels(text: str, narrative: Narrative) -> str:
     """Give title, map, manner and parameters to `narrative`; return the text with their lines blank: offsets stay."""
     manner: list[tuple[str, Fraction, None]] = []
+    seen = set[str]()
 
     def take(match: re.Match[str]) -> str:
         (label, said), value = match.groups(), _VALUE.fullmatch(match[2])
+        named = label if value is None or label in ("Title:", "Map:") else f"{label} {value[1]}"
+        if named in seen:
+            raise UnknownWordsError("one thing is told twice", found=match[0], fix="leave one of them out")
         if label == "Title:":
             narrative.title = said
         elif label == "Map:":
@@ -277,6 +296,7 @@ def take_labels(text: str, narrative: Narrative) -> str:
                 raise UnknownWordsError(f"parameter {value[1]} has no unit", found=match[0], fix=fix)
             told, low, high = (each and each / unit.si_factor for at in (2, 4, 6) for each in [_in(unit, value, at)])
             narrative.parameters.append(Parameter(value[1], told, low, high))
+        seen.add(named)
         return " " * len(match[0])
 
     text = _LINE.sub(take, text)

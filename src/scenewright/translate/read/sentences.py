@@ -15,7 +15,7 @@ from scenewright.errors import TranslationError
 from scenewright.program.types import EGO
 from scenewright.translate import story as st
 from scenewright.translate.read.chunks import Chunk, sentences
-from scenewright.translate.read.clauses import PEOPLE, Clause
+from scenewright.translate.read.clauses import PEOPLE, Clause, agree, is_upper
 from scenewright.translate.read.items import Segment, items_of, parted, segments_of
 from scenewright.translate.read.narrative import COURTESIES, Doing, Narrative, steady, take_labels
 
@@ -42,6 +42,7 @@ def read(text: str, answers: Mapping[str, str] | None = None, name: str = "descr
         narrative.pending = None
         try:
             sentence.read()
+            narrative.settle()
         except TranslationError as error:
             if sentence.is_open:
                 continue  # it is asked about first
@@ -80,7 +81,10 @@ class _Sentence:
         for chunk in self.chunks:
             free = not kept or (not joined and kept[-1].kind in ("be", "mood", *PEOPLE) and chunk.value != "start")
             if chunk.kind == "link" and chunk.value in _LEADS and free:
-                lead, _, self.turned = chunk.value.partition("then ")
+                lead, _, turned = chunk.value.partition("then ")
+                if turned and self.turned not in ("", turned):
+                    self.story.refuse("two turns are told at once", chunk.quote)
+                self.turned = self.turned or turned
                 self.leads.add(lead or "then")
             elif kept or chunk.kind != "comma":
                 kept.append(chunk)
@@ -130,8 +134,9 @@ class _Sentence:
             if first.subject == EGO and first.is_event and not timed:
                 story.refuse("the ego is driven by the policy under test", fix="say what the others do then")
             moment = story.moment(when)
-            if story.moments[moment].time is None and not story.is_owned(moment):
-                story.pending = moment
+            if (story.moments[moment].time is None or not items) and not story.is_owned(moment):
+                story.settle()
+                story.pending, story.awaits = moment, None if items or rest else story.quote
             story.add(moment, story.conditions(items))
             self._orders(moment, rest)
         elif tells_time:
@@ -178,9 +183,12 @@ class _Sentence:
             twice = (before.deed, item.deed) == (st.Verb.BRAKE, "stop")
             if before.deed not in (None, "stop") and item.is_event and not before.measures:
                 before.measures, before.notes = item.measures, before.notes | item.notes
-            elif twice and not before.says_more_than("deed", "phase", "rate", "measures", "times"):
-                found[-1], item.rate, item.times = item, item.rate or before.rate, {**before.times, **item.times}
+            elif twice and not before.says_more_than("deed", "phase", "rates", "measures", "times"):
+                found[-1], item.rates = item, [*before.rates, *item.rates]
                 item.measures = [*before.measures, *item.measures]
+                for name, several in before.times.items():
+                    item.times[name] = [*several, *item.times.get(name, ())]
+                item.agree()
             elif item.says_more_than():
                 if is_hero and item.is_event:
                     item.deed = st.Verb.DRIVE
@@ -205,6 +213,8 @@ class _Sentence:
                 item.measures = []
         conditions = story.conditions(items)
         measures = [each for each in conditions if isinstance(each, st.Measure)]
+        if not conditions or "start" in self.leads:
+            story.pending = self.pending  # what happens then is still to come
         if not conditions:
             if all(each.subject is None for each in items):
                 story.refuse("nothing is said here")
@@ -212,7 +222,7 @@ class _Sentence:
             story.doings[-1].throughout += measures
         elif "later" in self.leads:
             story.new_moment(conditions)
-        elif "start" in self.leads or not (story.doings or self.leads - {"meanwhile"}):
+        elif "start" in self.leads or not (story.doings or self.pending is not None or self.leads - {"meanwhile"}):
             story.add(st.START, conditions)
         else:
             story.refuse("it is not clear when this is so", fix="begin it with 'At the start,' or 'Later,'")
@@ -221,13 +231,16 @@ class _Sentence:
         story = self.story
         if clause.subject is not None and clause.subject != EGO:
             story.tell(clause)
-        more = clause.says_more_than("deed", "phase", "measures", "rate", "times", "flags")
+        more = clause.says_more_than("deed", "phase", "measures", "rates", "times", "flags")
         if clause.subject is None or clause.deed is None or more or clause.flags & {"first", "way", "start", "falls"}:
             story.refuse("it is not clear what is done here")
         if clause.phase == "finishes" or "after the start" in clause.times:
             story.refuse("nothing was told of this deed before")
+        if sum(each.link == "until" for each in rest) > 1:
+            story.refuse("two ends of one deed are told")
         if self.turned:  # "after turning left, it ..."
             story.tell_way(clause.subject, {"turn": self.turned})
+        story.awaits = None if when is None and self.pending is not None else story.awaits
         moment = self.pending if when is None else story.moment(when)
         begins, held, ends = self._shares(clause)
         if "kept" in clause.flags and not held:  # "continues at a constant speed"
@@ -251,9 +264,16 @@ class _Sentence:
         doing = story.begin(clause.subject, verb, moment, self.leads)
         story.subject = clause.subject
         story.add(doing.begins, begins)
-        doing.throughout += [*held, *([clause.rate] if clause.rate else [])]
+        if verb == st.Verb.DRIVE and story.is_at_rest(doing):  # no speed from rest on is held: it is reached
+            if "kept" in clause.flags:
+                story.refuse("who stands has no speed to keep", clause.quote, "say until when it speeds up")
+            reached = [each for each in held if is_upper(each) is not True]
+            first = f"{story.actor(doing.actor).name} stands when it sets off: it comes to its speed by the end of that"
+            story.assumptions += [first] * bool(reached)
+            held, doing.reached = [each for each in held if each not in reached], reached
+        doing.throughout += dict.fromkeys((*held, *clause.rates))
         rests = clause.deed == "stop" or "standstill" in clause.flags
-        doing.duration = None if rests else clause.times.get("for")
+        doing.lasts = [] if rests else [*dict.fromkeys(clause.times.get("for", ()))]
         if "while" in clause.flags and ends:
             story.refuse("it is not clear when this ends")
         self._end(doing, clause, ends, next((each for each in rest if each.link == "until"), None))
@@ -289,18 +309,20 @@ class _Sentence:
         return begins, held, ends
 
     def _end(self, doing: Doing, clause: Clause, ends: Sequence[st.Condition], until: Segment | None) -> None:
-        story = self.story
+        story, told = self.story, [*ends, *doing.reached]
         if until is not None:
             story.doer = doing.actor
             items = items_of(story, until.chunks)
             story.doer = None
             doing.ends = story.moment(items, doing.actor)
+            told += story.moments[doing.ends].conditions if told else ()  # "speeds up to 5 m/s until it is at 6 m/s"
             story.add(doing.ends, ends)
         elif ends:
             doing.ends = story.new_moment(ends)
-        elif doing.verb == st.Verb.BRAKE and "while" not in clause.flags and doing.duration is None:
+        elif doing.verb == st.Verb.BRAKE and "while" not in clause.flags and not doing.lasts:
             doing.ends = story.new_moment([st.standstill(doing.actor)])
             story.assumptions.append(f"{story.actor(doing.actor).name} brakes to a standstill")
+        agree((each for each in told if isinstance(each, st.Measure)), clause.quote)
 
     def _event_of(self, chunks: list[Chunk]) -> int:
         """Return the moment of the one event that chunks tell."""
@@ -345,6 +367,8 @@ class _Sentence:
 
     def _ego_order(self) -> None:
         """Read ``In the ego's order: ..., then ...``."""
+        if self.story.ego is not None:
+            self.story.refuse("the ego's order is told twice")
         events: list[list[Chunk]] = [[]]
         for chunk in self.chunks[1:]:
             if chunk.value == "then":
