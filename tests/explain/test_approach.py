@@ -90,6 +90,15 @@ def test_whoever_is_told_to_stop_on_the_way_may_stand() -> None:
     assert seen(stands).stands, "a program that says nothing of it"
 
 
+@pytest.mark.parametrize(("line", "found"), [("A1v(t1) == 0", False), ("A1v(t1) == 2", True), ("A1v(t2) == 0", True)])
+def test_who_is_to_be_at_a_standstill_may_stand(line: str, found: bool) -> None:
+    text = PROGRAM.replace("{sketch}", "t0, go, t1, acc, t2").replace("A1(t3)", "A1(t1)").replace("A1v(t4) == 0", line)
+    program = parse_program(text)
+    facts = {"trigger_time_s": {"hero": TRIGGER_S}, "knot_times_s": {"hero": {"t0": 0.0, "t1": TRIGGER_S, "t2": 9.0}}}
+    stands = driven((2.0, 0.0), (4.0, -5.0), (END_S, 0.0))
+    assert approach_of(ground(program, load_map("t_intersection")), stands, facts).stands is found
+
+
 def test_sizes_are_those_of_the_motion() -> None:
     ramp = tuple((round(0.1 * k, 1), -0.2 * k) for k in range(1, 11))  # 2 m/s^3
     approach = seen(driven(*ramp, (6.0, -2.0)))

@@ -227,3 +227,20 @@ def test_what_a_sketch_has_later_may_not_have_come_before() -> None:
     verdict = judge(play.case())
     assert failed(verdict, LOOSE) == {"order_of_moments"}
     assert verdict.condition("order_of_moments").measured == pytest.approx(2.0, abs=1e-6)
+
+
+@pytest.mark.parametrize("swapped", [False, True])
+def test_a_place_of_its_own_tells_a_moment_before_how_far_another_is(swapped: bool) -> None:
+    """The gap is never so small: in whatever order the two lines are, the hero was where it was."""
+    lines = ["gap(A0, A1, A1(t2)) == 5", "A1x(t2) == conflict_point - 30"]
+    play = replace(
+        ENDS_BY_GAP,
+        text=text(
+            "[t0, go, t1, acc, t2]",
+            "\n".join(["A0(t1) == A1(t1)", "gap(A0, A1, t1) == 20", *(reversed(lines) if swapped else lines)]),
+            heading="E",
+        ),
+    )
+    verdict = judge(play.case())
+    assert failed(verdict, LOOSE) == {"c3" if not swapped else "c4"}
+    assert verdict.facts["knot_times_s"]["hero"]["t2"] == pytest.approx(5.0, abs=0.05)

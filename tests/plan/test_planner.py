@@ -325,3 +325,31 @@ def test_whoever_begins_behind_the_ego_does_not_tailgate() -> None:
     room_m = ego[0] - hero[0] - 4.5
     assert planned[2].is_good
     assert 0.95 * hero[1] <= room_m < 3.0 * hero[1]
+
+
+@pytest.mark.parametrize("ego", ["idm", "constant"])
+def test_who_is_to_stand_at_its_trigger_does(ego: str) -> None:
+    text = program(
+        "E", "t0, go, t1, acc, t2", "A0(t1) == A1(t1)\nA0x(t1) == stop_line - 80\nA1v(t1) == 0\nA1v(t2) == 5"
+    )
+    assert orchestrate(Request(text, ego=ego, takes=1)).status == "success"
+
+
+@pytest.mark.parametrize("ego", ["idm", "dawdler"])
+def test_an_ego_that_follows_is_not_waited_for_to_come_nearer_to_one_that_stands(ego: str) -> None:
+    """Where it stops behind others is nearer than asked: the one ahead has to drive on to its place for the two."""
+    placed = "A0(t1) == A1(t1)\ngap(A0, A1, t1) == 8\nA1x(t1) == stop_line - 20\nA1v(t2) == 0"
+    assert orchestrate(Request(program("W", "t0, go, t1, dec, t2", placed), ego=ego, takes=1)).status == "success"
+
+
+def test_a_trigger_does_not_come_before_it_can_be_seen_what_was_before() -> None:
+    two = "A0(t1) == A1(t1)\ngap(A0, A1, t1) == 40\ngap(A0, A1, A1(t2)) == 20\nA1v(t2) == 6"
+    result = orchestrate(Request(program("W", "t0, go, t1, dec, t2", two), ego="idm", takes=1))
+    assert result.status == "success"
+
+
+@pytest.mark.parametrize("ego", ["idm", "stop-and-go"])
+def test_a_hero_waits_until_the_ego_has_come_to_stand(ego: str) -> None:
+    waits = "gap(A0, A1, t1) == 30\nA0(t1) == A1(t1)\nA1v(t2) == 0\nA0v(t2) == 0\nA1(t3) > A0(t2)\nA1v(t4) == 5"
+    text = program("W", "t0, go, t1, dec, t2, stop, t3, acc, t4", waits)
+    assert orchestrate(Request(text, ego=ego, takes=1)).status == "success"

@@ -42,12 +42,13 @@ def times(text: str = YIELDS_DISTANCE) -> tuple[TriggerTimes, Actor, float]:
         (STOPS_AND_GOES, True),
         (GOES_FIRST_TIME, True),
         (BRAKES_GAP, False),
-        (BRAKES_GAP.replace("gap(A0, A1, t1) == 20", "gap(A0, A1, t1) == 20\nA1x(t1) == stop_line - 80"), True),
+        (BRAKES_GAP.replace("gap(A0, A1, t1) == 20", "gap(A0, A1, t1) == 20\nA1x(t1) == stop_line - 80"), False),
+        (BRAKES_GAP.replace("gap(A0, A1, t1) == 20", "gap(A1, A0, t1) == 20\nA1x(t1) == stop_line - 80"), True),
         (BRAKES_GAP.replace("gap(A0, A1, t1) == 20", "A1x(t1) - A0x(t1) == 20"), False),
     ],
 )
 def test_who_decides_when_a_trigger_comes(text: str, alone: bool) -> None:
-    """A distance is for both to keep, unless the program says where one of the two is then."""
+    """A distance is for both to keep, unless the program says where the hero is then and the ego is ahead of it."""
     found, hero = times_of(text)
     assert (found.ego_side(hero) is not None) is alone
 

@@ -7,6 +7,8 @@ import pytest
 from scenewright.drive.guarded import GuardedPolicy
 from scenewright.drive.loading import load_policy
 from scenewright.drive.protocol import EgoPolicy
+from scenewright.orchestrate import orchestrate
+from scenewright.request import Request
 from scenewright.simulate.ego_start import EgoFirstState, ego_starts
 from stories import Stage, program
 
@@ -167,3 +169,12 @@ def test_a_bound_on_the_time_of_the_trigger_moves_the_start(told: str, low_s: fl
     start = starts(on)[0]
     way_m = on.scene.landmarks_m[0]["conflict_point"] - 30.0 - start.s_m
     assert low_s <= way_m / start.speed_mps <= high_s
+
+
+@pytest.mark.parametrize("lines", ["A0x(A1(t1)) == stop_line - 80", "gap(A0, A1, t1) == 30\nA1x(t1) == stop_line - 50"])
+def test_an_ego_whose_place_another_one_tells_begins_well_before_it(lines: str) -> None:
+    text = program("W", "t0, go, t1, dec, t2", f"A0(t1) == A1(t1)\n{lines}\nA0x(t2) == stop_line - 20\nA1v(t2) == 2")
+    result = orchestrate(Request(text, ego="constant", takes=1))
+    assert result.status == "success"
+    assert result.verdict is not None
+    assert result.verdict.facts["trigger_time_s"]["hero"] == pytest.approx(8.0, abs=0.1)

@@ -14,9 +14,10 @@ import scenarios
 from scenarios import BRAKES, NOT_YIELDING, ONE_SIDED, YIELDS, read_structure
 from scenewright.motion.profile import Profile, chain
 from scenewright.program.text import parse_program
+from scenewright.program.types import EGO
 from scenewright.roads import load_map
 from scenewright.roads.grounding import Scene, ground
-from scenewright.solve.arrival import HORIZON_S, LinearCondition, ego_knots_between_s, linear_conditions
+from scenewright.solve.arrival import HORIZON_S, LinearCondition, knot_between_s, linear_conditions, of_ego
 from stories import program
 
 T = load_map("t_intersection")
@@ -190,5 +191,23 @@ def test_conditions_of_the_canonical_programs() -> None:
 )
 def test_when_the_ego_comes_to_its_knots(line: str, between_s: tuple[float, float]) -> None:
     told = program("W", "t0, go, t1, dec, t2", f"A0(t1) == A1(t1)\ngap(A0, A1, t1) == 25\nA1v(t2) == 0\n{line}")
-    low, high = ego_knots_between_s(ground(parse_program(told), T))["t1"]
+    low, high = knot_between_s(ground(parse_program(told), T), (EGO, "t1"))
     assert (low, high) == pytest.approx(between_s)
+
+
+@pytest.mark.parametrize(
+    ("lines", "places_m"),
+    [
+        ("gap(A0, A1, t1) == 25\nA1x(t1) == stop_line - 40", [235.0]),
+        ("A1x(t1) == stop_line - 40\nA1x(t1) - A0x(t1) == 30", [230.0]),
+        ("A1x(t2) == stop_line - 40\ngap(A0, A1, t1) == 25", []),
+        ("A1x(t1) == stop_line - 40\nttc(A0, A1, t1) == 4", []),  # how fast the other is is not told
+        ("A1x(t1) == stop_line - 40\nheadway(A0, A1, t1) == 2", [255.5 - 20.0]),
+        ("A0x(A1(t1)) == stop_line - 50", [250.0]),
+    ],
+)
+def test_where_the_other_is_placed_so_is_the_ego(lines: str, places_m: list[float]) -> None:
+    scene = ground(parse_program(program("W", "t0, go, t1, dec, t2", f"A0(t1) == A1(t1)\n{lines}")), T)
+    structure = read_structure(scene.program)
+    found = of_ego(linear_conditions(scene, structure), structure)
+    assert [each.place_m(EGO, 10.0) for each in found] == pytest.approx(places_m)

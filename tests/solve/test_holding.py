@@ -79,6 +79,7 @@ def test_what_is_broken_is_told_with_its_number(constraint: str, by: float, unit
         "A1(t2) < A0(t1) and A1v(t2) == 2",
         "A1(t2) < A0(t1) or A1v(t2) == 7",
         "A0v(t2) == 3",  # nobody foresees when that is
+        "A0v(t1) == 3",  # nor that
         "A0(t1) == A1(t1)",
     ],
 )

@@ -31,7 +31,7 @@ from scenewright.program.expressions import (
     Temporal,
     walk,
 )
-from scenewright.program.structure import KnotKey, knots_of, synchronised
+from scenewright.program.structure import KnotKey, actors_of, knots_of, synchronised
 from scenewright.program.types import EGO, PieceKind
 
 SIGN_OF: dict[PieceKind, Sign] = {PieceKind.DEC: BRAKING, PieceKind.ACC: SPEEDING_UP}
@@ -285,10 +285,12 @@ def _defined_time(case: Case, key: KnotKey, after_s: float, knots: dict[KnotKey,
     for part in _equalities(case, key, set(knots)):
         orders = {_order_at(n, key) for n in walk(part)} - {None, 2}
         if orders and _can_be_judged(case, part, knots, frozenset({key})):
-            parts.append((orders == {1}, part))
+            relative = any(isinstance(node, Derived) for node in walk(part))
+            parts.append(((orders == {1}, len(actors_of(part)), relative), part))
     if not parts:
         return None
-    only_speed, part = min(parts, key=lambda item: item[0])  # a place defines a moment better than a speed
+    # A place defines a moment better than a speed, and one of its own better than how far it is from another.
+    (only_speed, *_), part = min(parts, key=lambda item: item[0])
     if only_speed:
         return _reached_speed(case, part, key, after_s, knots), "free"
     time_s = _place_time(case, part, key, after_s, knots)

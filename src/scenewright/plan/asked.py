@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from scenewright.plan.preferences import preferences_of
 from scenewright.plan.triggers import adapts_until
-from scenewright.program.structure import Structure, actors_of, knots_of
+from scenewright.program.structure import Structure, actors_of, knots_of, speeds_told_at
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
 from scenewright.roads.routes import Route
@@ -76,6 +76,7 @@ class Asked:
         }
         landmarks = {hero.id: scene.routes[hero.id].landmarks for hero in scene.program.heroes}
         self.junctions_m = {hero: marks.get("junction_start", marks["route_end"]) for hero, marks in landmarks.items()}
+        self.speed_told = {h for h, at in structure.triggers.items() if h in speeds_told_at(scene.program, at)}
         self.zones_m = {}
         for hero in scene.program.heroes:
             conflict = scene.conflict(EGO, hero.id)

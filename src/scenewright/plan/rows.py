@@ -222,7 +222,8 @@ class HeroRows:
             natural_mps = wanted.natural_share * self.asked.limits[self.hero.id].natural_approach_speed_mps
             self.costs.add(v - natural_mps, d_v, wanted.trigger_speed_weight)
             self.bounds.add(wanted.slowest_mps - v, -d_v, wanted.slowest_price)
-            self.bounds.add(wanted.moves_mps - v, -d_v, wanted.price / _TIGHT_SPEED)
+            if self.hero.id not in self.asked.speed_told:
+                self.bounds.add(wanted.moves_mps - v, -d_v, wanted.price / _TIGHT_SPEED)
         sense = _SENSE.get(begins.kind)
         if sense is None:
             return

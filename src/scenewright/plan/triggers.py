@@ -12,8 +12,9 @@ from dataclasses import dataclass
 from scenewright.motion.profile import Profile
 from scenewright.program.structure import Structure, actors_of, knots_of
 from scenewright.program.types import EGO, Actor, Program
+from scenewright.roads.conflicts import shared_offset_m
 from scenewright.roads.grounding import Scene
-from scenewright.solve.arrival import TIGHT_LENGTH_M, LinearCondition, tight_of
+from scenewright.solve.arrival import TIGHT_LENGTH_M, LinearCondition, of_ego, tight_of
 
 # How soon a trigger may come (s): nobody can tell what begins sooner from what has begun.
 SHORTEST_LEAD_S = 0.02
@@ -56,12 +57,16 @@ class TriggerTimes:
     def ego_side(self, hero: Actor) -> LinearCondition | None:
         """Return the condition on the ego alone that the hero's trigger waits for; None where both decide."""
         here = [c for c in self.conditions if c.moments <= self.structure.triggers[hero.id]]
-        known = _hero_place(hero, here)
-        for condition in here:
-            alone = condition.given(hero.id, *known) if hero.id in condition.weights and known else condition
-            if set(alone.weights) == {EGO} and alone.weights[EGO][0]:
-                return alone
-        return None
+        known = (
+            [c for c in here if set(c.weights) == {EGO}] if self._leads(hero, here) else of_ego(here, self.structure)
+        )
+        return next((c for c in known if c.weights[EGO][0]), None)
+
+    def _leads(self, hero: Actor, conditions: list[LinearCondition]) -> bool:
+        """Whether a hero is to be so far ahead of the ego: that one comes there as the hero lets it, not by itself."""
+        offset_m = shared_offset_m(self.scene.routes[EGO], self.scene.routes[hero.id])
+        apart = [c for c in conditions if set(c.weights) == {EGO, hero.id} and c.weights[hero.id][0]]
+        return offset_m is not None and any(offset_m - c.constant / c.weights[hero.id][0] > 0.0 for c in apart)
 
     def instant_s(self, hero: Actor, time_s: float, prediction: Profile, planned_s: float | None) -> float:
         """Return when a hero's trigger comes of which the ego decides (it has an `ego_side`).
@@ -107,6 +112,8 @@ class TriggerTimes:
                 arrival = condition.first_time({EGO: prediction}, max(time_s, latest))
                 if arrival is None and self._is_behind(condition, prediction.state(latest)):
                     arrival = latest  # it is past that place before it may be: nothing can come before it any more
+                elif arrival is None and not condition.weights[EGO][0]:
+                    arrival = time_s + _LATEST_S  # how fast it will be once answers what others do until then
                 if arrival is not None:
                     knots[name] = arrival
         return knots
@@ -151,12 +158,4 @@ def _standing(side: LinearCondition, time_s: float, prediction: Profile, before_
         if stands and begin_s <= before_s and not per_speed:
             off_m = abs(side.value({EGO: (segment.s_m, 0.0)}) / per_metre)
             return (begin_s, segment.end_s) if off_m <= _STANDS_THERE_M else None
-    return None
-
-
-def _hero_place(hero: Actor, conditions: list[LinearCondition]) -> tuple[float, float] | None:
-    """Return position and speed of the hero at its trigger where the program fixes the position."""
-    for condition in conditions:
-        if set(condition.weights) == {hero.id} and condition.weights[hero.id][1] == 0.0:
-            return -condition.constant / condition.weights[hero.id][0], 0.0
     return None

@@ -106,8 +106,10 @@ class Unknowns:
         if instant in self.now.knots_s:
             return Moment(self.now.knots_s[instant])
         guess = self.now.expected_s.get(instant, self.now.time_s + 5.0)
-        soonest = self.now.time_s + SOONEST_S if self.now.heroes else float(self.asked.least_s[:, instant].max())
-        return Moment(0.0, self._new(guess, soonest, _LATEST_S, _STEP_S))
+        soonest = [self.now.time_s + SOONEST_S if self.now.heroes else 0.0, float(self.asked.least_s[:, instant].max())]
+        if any(self.asked.trigger(hero.id) == instant for hero in self.asked.scene.program.heroes):
+            soonest.append(self.asked.wanted.settled_s)  # what was before the run is not seen
+        return Moment(0.0, self._new(guess, max(soonest), _LATEST_S, _STEP_S))
 
     def _owned(self, hero: int) -> _Own:
         """Return what a hero's motion and rows depend on: all but what is other heroes' alone."""

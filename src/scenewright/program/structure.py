@@ -117,6 +117,13 @@ def placed_at(program: Program, instant: frozenset[KnotKey]) -> set[int]:
     return found
 
 
+def speeds_told_at(program: Program, instant: frozenset[KnotKey]) -> set[int]:
+    """Return the actors of whom a program says how fast they are at an instant, or how fast at most or least."""
+    formulas = (constraint.formula for constraint in program.constraints)
+    told = [formula for formula in formulas if isinstance(formula, Compare) and set(knots_of(formula)) <= instant]
+    return {node.actor for each in told for node in walk(each) if isinstance(node, State) and node.order == 1}
+
+
 def synchronised(formula: Formula) -> Iterator[tuple[KnotKey, KnotKey]]:
     """Yield the pairs of knots that `formula` says are the same moment."""
     if isinstance(formula, Compare) and formula.operator == "==":

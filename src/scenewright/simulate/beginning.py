@@ -28,7 +28,7 @@ from scenewright.simulate.ego_start import SHIFTS, EgoFirstState, ego_starts
 from scenewright.simulate.heroes import HeroDriver
 from scenewright.simulate.port import Start
 from scenewright.simulate.world import World
-from scenewright.solve.arrival import linear_conditions
+from scenewright.solve.arrival import linear_conditions, of_ego
 from scenewright.solve.feasibility import check_feasibility
 from scenewright.solve.limits import Limits
 from scenewright.units import pin
@@ -208,7 +208,7 @@ def _starts(world: World, predictor: Predictor) -> Iterator[EgoFirstState]:
 
     That is shifted, unless the program says where it begins, for an ego that does not hold its speed to be on time too.
     """
-    conditions = linear_conditions(world.scene, world.structure)
+    conditions = tuple(of_ego(linear_conditions(world.scene, world.structure), world.structure))
     yield from ego_starts(world.scene, world.ego, world.limits[EGO], conditions)
     bounds = replace(world.ego_bounds, holds_speed=True)
     found = check_feasibility(world.scene, world.structure, world.limits, bounds, explain=False)

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
 from scenewright.simulate.vehicles import EgoVehicle
-from scenewright.solve.arrival import LinearCondition, ego_knots_between_s
+from scenewright.solve.arrival import LinearCondition, knot_between_s
 from scenewright.solve.limits import MOVING_MPS, Limits
 
 _RUN_UP_M = 90.0
@@ -70,10 +70,11 @@ class _Way:
         first, landmarks = scene.program.ego.sketch.knots[0], scene.landmarks_m[EGO]
         alone = [c for c in conditions if set(c.weights) == {EGO} and c.weights[EGO][0]]
         begins = next((c for c in alone if c.moments == {(EGO, first)}), None)
-        comes = next((c for c in alone if (EGO, first) not in c.moments), None)
+        later = [c for c in alone if (EGO, first) not in c.moments]
+        comes = min(later, key=lambda c: _order(scene, c), default=None)
         least_s, most_s = 0.0, math.inf
         if comes is not None:
-            least_s, most_s = ego_knots_between_s(scene)[next(name for who, name in comes.moments if who == EGO)]
+            least_s, most_s = knot_between_s(scene, min(comes.moments))
         lead_s, is_told = min(max(_LEAD_S, least_s), most_s), most_s - least_s < _ROUNDING_S
         return cls(begins, comes, lead_s, is_told, landmarks.get("intersection", 0.5 * landmarks["route_end"]))
 
@@ -96,6 +97,12 @@ class _Way:
             late_m = self.comes.place_m(EGO, ego.state.speed_mps) - ego.state.s_m
             start = replace(start, s_m=max(0.0, start.s_m + late_m))
         return start
+
+
+def _order(scene: Scene, condition: LinearCondition) -> int:
+    """Return which of the ego's knots a condition is of; what is of a hero's comes behind all of these."""
+    sketch = scene.program.ego.sketch
+    return min((sketch.knot_index(name) for who, name in condition.moments if who == EGO), default=len(sketch.knots))
 
 
 def ego_starts(

@@ -8,7 +8,7 @@ acceleration.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from scenewright.motion.profile import Profile
@@ -121,13 +121,36 @@ def linear_conditions(scene: Scene, structure: Structure, *, with_bounds: bool =
     return tuple(found)
 
 
-def ego_knots_between_s(scene: Scene) -> dict[str, tuple[float, float]]:
-    """Return how long after the start each knot of the ego's comes at least, and at most, as far as times are told."""
+def of_ego(conditions: Iterable[LinearCondition], structure: Structure) -> Iterator[LinearCondition]:
+    """Yield the conditions on the ego alone, and those that are where the program places all others at that moment.
+
+    Each is of the ego's own knots at that moment where it has any.
+    """
+    conditions = tuple(conditions)
+    instants = (frozenset(structure.starts.items()), *structure.instants)
+    moment_of = {key: instant for instant in instants for key in instant}
+
+    def moment(condition: LinearCondition) -> frozenset[KnotKey]:
+        return frozenset(key for own in condition.moments for key in moment_of.get(own, {own}))
+
+    for condition in conditions:
+        alone = condition
+        for placed in conditions:
+            actor = next(iter(placed.weights))
+            told = len(placed.weights) == 1 and not placed.weights[actor][1] and moment(placed) == moment(condition)
+            if told and actor != EGO and alone.weights.get(actor, (0.0, 1.0))[1] == 0.0:
+                alone = alone.given(actor, placed.place_m(actor, 0.0), 0.0)
+        if set(alone.weights) == {EGO}:
+            own = frozenset(key for key in moment(condition) if key[0] == EGO)
+            yield replace(alone, moments=own or alone.moments)
+
+
+def knot_between_s(scene: Scene, key: KnotKey) -> tuple[float, float]:
+    """Return how long after the start a knot comes at least, and at most, as far as times are told."""
     events = Events(scene, {actor.id: _ANYBODY for actor in scene.program.actors}, EgoBounds())
     formulas = [each.formula for each in Lowering(events).lower(scene.program.constraints)]
-    least, begins = least_differences(events, formulas), events.start
-    knots = {name: events.knot(EGO, name) for name in scene.program.ego.sketch.knots}
-    return {name: (float(least[begins, knot]), -float(least[knot, begins])) for name, knot in knots.items()}
+    least, begins, knot = least_differences(events, formulas), events.start, events.knot(*key)
+    return float(least[begins, knot]), -float(least[knot, begins])
 
 
 def _weights(events: Events, left: Polynomial) -> dict[int, tuple[float, float]] | None:

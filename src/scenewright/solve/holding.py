@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from scenewright.motion.profile import Profile
 from scenewright.program import expressions as ex
 from scenewright.program.evaluate import term_value, violation
-from scenewright.program.structure import Role, actors_of, knots_of, read_structure
+from scenewright.program.structure import KnotKey, Role, actors_of, knots_of, read_structure
 from scenewright.program.types import EGO, Constraint
 from scenewright.roads.grounding import Scene
 from scenewright.solve.plan import PlanWorld
@@ -49,7 +49,8 @@ def not_held(
     """Yield the constraints that motions break by more than is `allowed` of the dimension of what they compare.
 
     Who comes before the ego is not asked about: it may still give way. Nor is what speaks of a knot of the ego that
-    nobody foresees, or of how the ego and another are to each other at a trigger: the run brings that about.
+    nobody foresees, or that nothing but its own state there tells, or of how the ego and another are to each other at
+    a trigger: the run brings that about.
     """
     roles = read_structure(scene.program).roles
     parameters = {name: float(value) for name, value in scene.parameters.items()}
@@ -58,7 +59,10 @@ def not_held(
         profiles[EGO].segments, {**profiles[EGO].knot_times_s, **dict(_passed_s(scene, profiles[EGO], world))}
     )
     world = PlanWorld(scene, {**profiles, EGO: passed}, parameters)
+    open_knots = {(EGO, name) for name in scene.program.ego.sketch.knots[1:]} - set(_tied(scene))
     for constraint in scene.program.constraints:
+        if actors_of(constraint.formula) == {EGO} and set(knots_of(constraint.formula)) & open_knots:
+            continue
         if roles[constraint.id] is Role.TRIGGER and actors_of(constraint.formula) > {EGO}:
             continue
         for part in _asked(constraint.formula):
@@ -72,6 +76,14 @@ def not_held(
                 told = named(scene.program, constraint)
                 yield NotHeld(constraint, told, scene.program.words_of(constraint), by, unit)
                 break
+
+
+def _tied(scene: Scene) -> Iterator[KnotKey]:
+    """Yield the knots of which the program says where their actors are there, or when they come."""
+    for formula in (constraint.formula for constraint in scene.program.constraints):
+        for node in ex.walk(formula) if isinstance(formula, ex.Compare) and formula.operator == "==" else ():
+            if isinstance(node, ex.Elapsed | ex.Derived) or (isinstance(node, ex.State) and node.order == 0):
+                yield from knots_of(formula)
 
 
 def _passed_s(scene: Scene, ego: Profile, world: PlanWorld) -> Iterator[tuple[str, float]]:
