@@ -29,7 +29,7 @@ def never_came(world: World, verdict: Verdict, missed: Sequence[Condition]) -> b
         if condition.id not in asked:
             return condition.measured is None
         knots = knots_of(asked[condition.id].formula)
-        return any(math.isinf(times_s[names[actor]][knot]) for actor, knot in knots)
+        return any(math.isinf(times_s[names[actor]].get(knot, math.inf)) for actor, knot in knots)
 
     return bool(missed) and all(map(is_open, missed))
 
