@@ -6,17 +6,12 @@ import pytest
 
 from scenewright.orchestrate import orchestrate
 from scenewright.request import Request
+from stories import program
 
-WAITS = """
-Actor 0 (ego):
-- S, W
-- [t0, go, t1, go, t2]
-
-Actor 1 (hero):
-- W
-- [t0, go, t1, dec, t2, stop, t3, acc, t4]
-
-Constraints:
+WAITS = program(
+    "W",
+    "t0, go, t1, dec, t2, stop, t3, acc, t4",
+    """
 A0(t1) == A1(t1)
 A0x(t1) == stop_line - {ego_m}
 A1x(t1) == conflict_point - {hero_m}
@@ -25,7 +20,9 @@ A1x(t2) == conflict_point - {stands_m}
 A0x(t2) == conflict_point
 A0(t2) < A1(t3)
 A1v(t4) == 6
-"""
+""",
+    ego_route="S, W",
+)
 
 
 @pytest.mark.parametrize(("ego_m", "hero_m", "stands_m"), [(15, 28, 9), (15, 28, 2), (8, 40, 2)])

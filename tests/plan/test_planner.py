@@ -335,6 +335,31 @@ def test_who_is_to_stand_at_its_trigger_does(ego: str) -> None:
     assert orchestrate(Request(text, ego=ego, takes=1)).status == "success"
 
 
+def test_whoever_hangs_on_the_trigger_of_another_can_be_as_slow_as_told_too() -> None:
+    text = """
+Actor 0 (ego):
+- W
+- [t0, go, t1, go, t2]
+
+Actor 1 (first):
+- W
+- [t0, go, t1, dec, t2]
+
+Actor 2 (next):
+- E
+- [t0, go, t1, acc, t2]
+
+Constraints:
+A0(t1) == A1(t1)
+gap(A0, A1, t1) == 30
+A1v(t2) == 4
+A2(t1) - A1(t1) == 1.5 s
+A2v(t1) <= 0.2
+A2v(t2) == 5
+"""
+    assert orchestrate(Request(text, ego="constant", takes=1)).status == "success"
+
+
 @pytest.mark.parametrize("ego", ["idm", "dawdler"])
 def test_an_ego_that_follows_is_not_waited_for_to_come_nearer_to_one_that_stands(ego: str) -> None:
     """Where it stops behind others is nearer than asked: the one ahead has to drive on to its place for the two."""

@@ -76,7 +76,11 @@ class Asked:
         }
         landmarks = {hero.id: scene.routes[hero.id].landmarks for hero in scene.program.heroes}
         self.junctions_m = {hero: marks.get("junction_start", marks["route_end"]) for hero, marks in landmarks.items()}
-        self.speed_told = {h for h, at in structure.triggers.items() if h in speeds_told_at(scene.program, at)}
+        self.speed_told = {  # heroes of whom the program says how fast they are where they begin to act
+            hero
+            for hero, name in self.adapts_until.items()
+            if hero in speeds_told_at(scene.program, structure.triggers.get(hero, frozenset({(hero, name)})))
+        }
         self.zones_m = {}
         for hero in scene.program.heroes:
             conflict = scene.conflict(EGO, hero.id)

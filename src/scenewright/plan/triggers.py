@@ -7,7 +7,7 @@ trigger that a hero decides too is for the planning problem itself.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from scenewright.motion.profile import Profile
 from scenewright.program.structure import Structure, actors_of, knots_of
@@ -41,6 +41,11 @@ class TriggerTimes:
     structure: Structure
     conditions: tuple[LinearCondition, ...]
     ego_began: tuple[float, float] = (0.0, 0.0)
+    _sides: dict[int, LinearCondition | None] = field(init=False)  # of the ego, by hero: asked for at every tick
+
+    def __post_init__(self) -> None:
+        heroes = [hero for hero in self.scene.program.heroes if hero.id in self.structure.triggers]
+        self._sides = {hero.id: self._side(hero) for hero in heroes}
 
     def ego_alone(self) -> list[LinearCondition]:
         """Conditions on the ego alone at knots that it passes by itself (not those it shares with a hero's trigger)."""
@@ -52,18 +57,20 @@ class TriggerTimes:
 
     def ego_decides(self, hero: Actor) -> bool:
         """Whether the ego alone decides when a hero's trigger comes."""
-        return hero.id in self.structure.triggers and self.ego_side(hero) is not None
+        return self.ego_side(hero) is not None
 
     def ego_side(self, hero: Actor) -> LinearCondition | None:
         """Return the condition on the ego alone that the hero's trigger waits for; None where both decide."""
+        return self._sides.get(hero.id)
+
+    def _side(self, hero: Actor) -> LinearCondition | None:
         here = [c for c in self.conditions if c.moments <= self.structure.triggers[hero.id]]
-        known = (
-            [c for c in here if set(c.weights) == {EGO}] if self._leads(hero, here) else of_ego(here, self.structure)
-        )
+        alone = [c for c in here if set(c.weights) == {EGO}]
+        known = alone if self._leads(hero, here) else of_ego(here, self.structure)
         return next((c for c in known if c.weights[EGO][0]), None)
 
     def _leads(self, hero: Actor, conditions: list[LinearCondition]) -> bool:
-        """Whether a hero is to be so far ahead of the ego: that one comes there as the hero lets it, not by itself."""
+        """Whether conditions put a hero ahead of the ego on its lane: that one comes there as the hero lets it."""
         offset_m = shared_offset_m(self.scene.routes[EGO], self.scene.routes[hero.id])
         apart = [c for c in conditions if set(c.weights) == {EGO, hero.id} and c.weights[hero.id][0]]
         return offset_m is not None and any(offset_m - c.constant / c.weights[hero.id][0] > 0.0 for c in apart)

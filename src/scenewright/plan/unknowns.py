@@ -25,9 +25,9 @@ Array = NDArray[np.float64]
 # Between two nodes, how many there are in a leg at most, and how far a plan looks beyond its last knot; chosen.
 _CELL_S, _MOST_CELLS, AFTER_LAST_S = 0.6, 18, 3.0
 _LEAST_S = 0.05  # between two knots of one hero: shorter than any manner lets a piece be
-_LEAST_APPROACH_S = 0.4  # before the settled end of an approach, for it to have a leg of its own
-_LATEST_S, _FASTEST_MPS = 200.0, 60.0
-_BETWEEN_S = 2.0  # after one that goes first, where the other comes much later
+_LEAST_APPROACH_S = 0.4  # before the settled end of an approach, for it to have a leg of its own; chosen
+_LATEST_S, _FASTEST_MPS = 200.0, 60.0  # beyond what any run lasts (see `LONGEST_S`) and any law of motion lets drive
+_BETWEEN_S = 2.0  # after one that goes first, where the other comes much later; chosen
 # Of a time, a place, a speed, a rate and anything else: how far rows are good for that are taken to be linear; chosen.
 _STEP_S, _STEP_M, _STEP_MPS, _STEP_MPSS, _STEP_OTHER = 0.6, 40.0, 5.0, 3.0, 4.0
 
