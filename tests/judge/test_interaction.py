@@ -6,8 +6,9 @@ import re
 from collections.abc import Sequence
 from dataclasses import replace
 
+import numpy as np
 import pytest
-from plays import BRAKES, GOES_AFTER, YIELDS, Play, failed
+from plays import BRAKES, CROSSING, GOES_AFTER, YIELDS, Motion, Play, failed, text
 
 from scenewright.judge.judgement import judge
 from scenewright.judge.tolerance import LOOSE, TIGHT
@@ -101,3 +102,45 @@ def test_one_that_is_to_stand_on_does_not_have_to_move_off(last: str) -> None:
     assert failed(judge(stands.case()), TIGHT) == set()
     goes = replace(YIELDS, text=YIELDS.text.replace("[t0, go, t1, dec, t2]", sketch.replace(last + ", t4", "go, t4")))
     assert "hero_goes_again" in failed(judge(goes.case()), TIGHT)
+
+
+# The ego is 10 m before its line at 5 s; the hero is 40 m before its point then, and brakes at 3 m/s^2.
+SAID = "A0(t1) == A1(t2)\nA0x(t1) == stop_line - 10\nA1x(t2) == conflict_point - 40"
+AT_5_S = "A0(t1) == A1(t1)\nA0x(t1) == stop_line - 10"
+
+
+def before(kind: str, speed_mps: float, *pieces: tuple[float, float]) -> set[str]:
+    """Return what does not hold of somebody who was to do something all the 5 s before its trigger."""
+    way_m = Motion(0.0, speed_mps, pieces).states(np.array([5.0]))[0][0]
+    hero = Motion(60.0 - way_m, speed_mps, [*pieces, (9.0, -3.0)])
+    said = SAID.replace("t2", "t1")
+    play = Play(text(f"[t0, {kind}, t1, dec, t2]", said), Motion(0.0, 10.0, []), hero, 5.0, CROSSING)
+    return failed(judge(play.case()), LOOSE)
+
+
+def test_what_is_done_before_a_trigger_is_judged_too() -> None:
+    even, faster, slower = ((5.0, 0.0),), ((4.4, 1.0), (0.6, 0.0)), ((4.4, -1.0), (0.6, 0.0))
+    assert before("go", 10.0, *even) == set()
+    assert before("acc", 8.0, *faster) == set()
+    assert "hero_acc_onset" in before("acc", 10.0, *even)
+    assert "hero_acc_onset" in before("acc", 8.0, (3.0, 0.0), (1.4, 2.0), (0.6, 0.0))  # for three of the five seconds
+    assert "hero_acc" in before("acc", 14.0, *slower)
+    assert "hero_dec1" in before("dec", 8.0, *faster)
+    assert "hero_stop" in before("stop", 10.0, *even)
+
+
+@pytest.mark.parametrize(("pieces", "missed"), [([(5.0, 0.0), (3.0, 2.0)], False), ([(7.0, 0.0), (3.0, 2.0)], True)])
+def test_who_is_to_set_off_at_its_trigger_does_so_then(pieces: list[tuple[float, float]], missed: bool) -> None:
+    play = Play(
+        text("[t0, stop, t1, go, t2]", AT_5_S), Motion(0.0, 10.0, []), Motion(60.0, 0.0, pieces), 5.0, CROSSING
+    )
+    assert ("hero_goes_again" in failed(judge(play.case()), LOOSE)) is missed
+
+
+def test_braking_that_is_told_at_a_place_and_never_comes_is_missed() -> None:
+    said = f"{AT_5_S}\nA1x(t2) == conflict_point"
+    ego, drives = Motion(0.0, 10.0, []), Motion(10.0, 10.0, [(30.0, 0.0)])
+    play = Play(text("[t0, go, t1, go, t2, dec, t3]", said), ego, drives, 5.0, CROSSING)
+    assert failed(judge(play.case()), LOOSE) == {"hero_dec_onset"}
+    brakes = replace(play, hero=Motion(10.0, 10.0, [(9.0, 0.0), (9.0, -2.0)]))
+    assert failed(judge(brakes.case()), TIGHT) == set()

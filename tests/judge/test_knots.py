@@ -244,3 +244,45 @@ def test_a_place_of_its_own_tells_a_moment_before_how_far_another_is(swapped: bo
     verdict = judge(play.case())
     assert failed(verdict, LOOSE) == {"c3" if not swapped else "c4"}
     assert verdict.facts["knot_times_s"]["hero"]["t2"] == pytest.approx(5.0, abs=0.05)
+
+
+@pytest.mark.parametrize(
+    ("after", "pieces", "holds"),
+    [
+        ("go", [(20.0, 0.0)], True),
+        ("stop", [(20.0, 0.0)], False),  # it does not begin to stand
+        ("stop", [(2.0, 0.0), (2.0, 2.0), (2.5, -1.6)], True),
+        ("stop", [(2.0, 0.0), (2.0, 2.0), (2.0, -2.0)], False),
+    ],
+)
+def test_who_waits_before_may_be_told_to_stand_later(after: str, pieces: list[tuple[float, float]], holds: bool) -> None:
+    """The ego is 10 m before its line at 5 s; 1.5 s after that the hero stands, or begins to."""
+    said = "A0x(t1) == stop_line - 10\nA1(t1) - A0(t1) == 1.5\nA1v(t1) == 0"
+    play = Play(
+        text=text(f"[t0, go, t1, {after}, t2]", said),
+        ego=Motion(0.0, 10.0, []),
+        hero=Motion(20.0, 0.0, pieces),
+        trigger_s=6.5,
+        hero_line=CROSSING,
+    )
+    verdict = judge(play.case())
+    assert ("c2" not in failed(verdict, LOOSE)) == holds
+    assert "c3" not in failed(verdict, TIGHT)
+
+
+def test_a_speed_that_is_not_quite_met_is_not_looked_for_in_a_later_piece() -> None:
+    """It brakes to 3.01 m/s, speeds up to 8 m/s and brakes to a stand: 3 m/s are had again only while it brakes then."""
+    said = (
+        "A0(t1) == A1(t1)\nA0x(t1) == stop_line - 20\nA1x(t1) == conflict_point - 50\nA1v(t2) == 3\nA1v(t3) == 8\n"
+        "A1v(t4) == 0"
+    )
+    play = Play(
+        text=text("[t0, go, t1, dec, t2, acc, t3, dec, t4]", said),
+        ego=Motion(10.0, 10.0, []),
+        hero=Motion(20.0, 10.0, [(3.0, 0.0), (2.33, -3.0), (2.5, 2.0), (4.0, -2.0)]),
+        trigger_s=3.0,
+        hero_line=CROSSING,
+    )
+    verdict = judge(play.case())
+    assert failed(verdict, TIGHT) == set()
+    assert verdict.facts["knot_times_s"]["hero"]["t2"] == pytest.approx(5.33, abs=0.03)

@@ -160,3 +160,30 @@ def test_caps_tell_how_they_change() -> None:
             steep += abs(slope) > 0.5
             assert here > 0.0
     assert steep > 4
+
+
+def test_which_of_two_heroes_is_first_is_no_matter_of_rounding() -> None:
+    two = "\nActor 2 (other):\n- W\n- [t0, go, t1, dec, t2]\n"
+    text = program("E, N", "t0, go, t1, acc, t2", SYNC + "A2(t1) - A1(t1) == 1\nA1(t2) < A2(t2)")
+    asked = asked_of(scene_of(text.replace("\nConstraints:", f"{two}\nConstraints:")))
+    one, other = (asked.times[asked.knot(actor, "t2")] for actor in (HERO, 2))
+    assert one is not None
+    assert other is not None
+    rows = [row for row in rows_at(asked, {one: 6.0, other: 6.0}) if row.slope[one] and row.slope[other]]
+    assert [(row.order, row.spare > 0.0) for row in rows] == [(False, True)]
+    late = [row for row in rows_at(asked, {one: 6.0, other: 6.0}) if row.equal and row.slope.any()]
+    assert all(row.spare == 0.0 for row in late)
+
+
+@pytest.mark.parametrize(
+    ("line", "ordered"),
+    [
+        ("A0x(t2) == conflict_point\nlater: A1(t2) < A0(t2)", True),
+        ("A1(t2) - A1(t1) <= 9", False),  # how long it lasts is in its own hands, though the ego begins it, too
+        ("always[A1(t1) + 2, A1(t1) + 4] (A1v <= 5)", False),
+    ],
+)
+def test_only_what_the_ego_decides_alone_is_a_matter_of_forecasts(line: str, ordered: bool) -> None:
+    asked = asked_for(line)
+    rows = rows_at(asked, {number: 1.0 + k for k, number in enumerate(asked.times) if number is not None})
+    assert any(row.order for row in rows) is ordered

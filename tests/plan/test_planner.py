@@ -378,3 +378,17 @@ def test_a_hero_waits_until_the_ego_has_come_to_stand(ego: str) -> None:
     waits = "gap(A0, A1, t1) == 30\nA0(t1) == A1(t1)\nA1v(t2) == 0\nA0v(t2) == 0\nA1(t3) > A0(t2)\nA1v(t4) == 5"
     text = program("W", "t0, go, t1, dec, t2, stop, t3, acc, t4", waits)
     assert orchestrate(Request(text, ego=ego, takes=1)).status == "success"
+
+
+def test_who_ends_standing_stands_though_one_behind_it_is_to_pass() -> None:
+    """It was to let the other one by: so it set off again at once."""
+    hero = "Actor 1 (h1):\n- W\n- [t0, go, t1, dec, t2]\n\n"
+    behind = "Actor 2 (h2):\n- W\n- [t0, go, t1, go, t2]\n\n"
+    text = f"Actor 0 (ego):\n- W\n- [t0, go, t1, go, t2]\n\n{hero}{behind}Constraints:\n" + (
+        "A0(t1) == A1(t1)\ngap(A0, A1, t1) == 70\nA1x(t1) == stop_line - 40\nA1v(t2) == 0\nA0(t1) == A2(t1)\n"
+        "gap(A2, A1, t1) == 20\nA2x(t2) == stop_line + 40\nA2(t2) - A1(t2) == 5\n"
+    )
+    planner = planner_of(scene_of(text))
+    planner.begin((0.0, 150.0, 13.9, 0.0))
+    motion = planner.plan.profiles[1]
+    assert motion.state(motion.knot_times_s["t2"] + 0.5)[1] == pytest.approx(0.0, abs=0.02)

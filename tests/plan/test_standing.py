@@ -6,7 +6,7 @@ import pytest
 from many_heroes import PROGRAMS
 from situations import HERO, driven_on, planner_of, scene_of
 
-from stories import YIELDS_DISTANCE
+from stories import YIELDS_DISTANCE, program
 
 
 def test_after_its_trigger_a_plan_stays_as_it_is() -> None:
@@ -51,3 +51,16 @@ def test_triggers_of_several_move_on_by_half_a_second_a_tick_until_they_come_soo
     assert max(by_s for by_s, _ in moved) > (1.0 if heroes == 1 else 0.4)
     if heroes > 1:
         assert all(by_s <= 0.5 + 1e-6 for by_s, left_s in moved if left_s > 2.0)
+
+
+SYNC = "A0(t1) == A1(t1)\nA0x(t1) == conflict_point - 30\nA1x(t1) == conflict_point - 20\nA1v(t2) == 0\nA1v(t4) == 4\n"
+
+
+@pytest.mark.parametrize("stands_s", [3, 60])
+def test_how_long_it_is_to_stand_later_is_no_reason_to_come_slowly(stands_s: float) -> None:
+    """A first guess that has moments as far apart as they are told to be needs no steps to draw them apart."""
+    text = program("E, N", "t0, go, t1, dec, t2, stop, t3, acc, t4", SYNC + f"A1(t3) - A1(t2) == {stands_s}")
+    planner = planner_of(scene_of(text))
+    planner.begin((0.0, 175.0, 13.9, 0.0))
+    motion = planner.plan.profiles[HERO]
+    assert motion.state(motion.knot_times_s["t1"])[1] > 6.0

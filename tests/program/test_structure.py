@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from scenarios import EXAMPLE_TABLE, YIELDS_THEN_GOES, Example, example
-from scenewright.program.structure import Role, placed_at, read_structure
+from scenewright.program.structure import Role, placed_at, read_structure, stands_at_end
 from scenewright.program.text import parse_program
 
 THREE = """
@@ -97,3 +97,18 @@ def test_what_does_not_say_that_two_knots_are_one_moment(line: str) -> None:
 def test_who_is_told_where_to_be_at_an_instant(line: str, placed: set[int]) -> None:
     program = parse_program(example("W", "t0, go, t1, dec, t2", f"A0(t1) == A1(t1)\n{line}"))
     assert placed_at(program, frozenset({(0, "t1"), (1, "t1")})) == placed
+
+
+@pytest.mark.parametrize(
+    ("sketch", "line", "stands"),
+    [
+        ("[t0, go, t1, dec, t2]", "A1v(t2) == 0", True),
+        ("[t0, go, t1, dec, t2]", "A1v(t2) == 2", False),
+        ("[t0, go, t1, dec, t2]", "A1v(t1) == 0", False),
+        ("[t0, go, t1, dec, t2, stop, t3]", "A1v(t1) == 9", True),
+        ("[t0, go, t1, dec, t2, stop, t3, go, t4]", "A1v(t2) == 0", False),
+    ],
+)
+def test_who_stands_at_the_end(sketch: str, line: str, stands: bool) -> None:
+    text = f"Actor 0 (ego):\n- W\n- [t0, go, t1]\n\nActor 1 (hero):\n- E, N\n- {sketch}\n\nConstraints:\n{line}\n"
+    assert stands_at_end(parse_program(text), 1) is stands

@@ -67,3 +67,9 @@ def test_what_could_have_stood_there_is_said_in_words() -> None:
     with pytest.raises(ProgramError) as caught:
         parse_program('scenario "x"\n')
     assert caught.value.found == "the end of the text"
+
+
+def test_a_place_with_somebody_that_is_nobodys_is_told_how_it_is_written() -> None:
+    with pytest.raises(ProgramError) as caught:
+        parse_program(f"{HEAD}A0x(t0) == conflict_point(A0) - 30\n")
+    assert "A1.conflict_point(A0)" in (caught.value.fix or "")

@@ -95,3 +95,20 @@ def test_drive_is_read_back_from_its_trace() -> None:
         s_m, speed_mps, _ = profile.state(float(ego.time_s[index]))
         assert s_m == pytest.approx(ego.s_m[index], abs=0.005)
         assert speed_mps == pytest.approx(ego.speed_mps[index], abs=0.02)
+
+
+def test_nothing_is_claimed_where_a_later_moment_of_the_ego_hangs_on_the_hero() -> None:
+    text = STORIES["stops and goes"]
+    assert "A0x(t2) ==" in text
+    hangs = "\n".join("A0(t2) == A1(t4)" if line.startswith("A0x(t2) ==") else line for line in text.splitlines())
+    proofs = []
+    for each in (text, hangs):
+        stage = Stage(each, rushing(np.inf))
+        assert stage.begin(stage.scene.landmarks_m[0]["stop_line"] - 50.0, 3.0).is_good
+        trigger_s = stage.run().last_plan.profiles[HERO].knot_times_s["t1"]
+        again = Stage(each, rushing(trigger_s + 0.1))
+        again.begin(again.scene.landmarks_m[0]["stop_line"] - 50.0, 3.0)
+        run = again.run()
+        proofs.append(ego_left_no_room(again.scene, again.structure, again.limits, run.trace))
+    assert proofs[0] is not None
+    assert proofs[1] is None

@@ -13,7 +13,8 @@ import numpy as np
 
 from scenewright.judge.case import Case
 from scenewright.judge.knots import SIGN_OF, Measured, demands_standstill
-from scenewright.judge.phases import move_off_after, rest_after
+from scenewright.judge.phases import move_off_after, phase_at, rest_after
+from scenewright.judge.terms import Span
 from scenewright.judge.tolerance import TIGHT, Every, Leaf
 from scenewright.judge.verdict import Condition, bounded, unjudged
 from scenewright.program.types import Actor, PieceKind
@@ -23,16 +24,15 @@ _VERBS = {PieceKind.DEC: "brake", PieceKind.ACC: "speed up"}
 
 
 def interaction_conditions(case: Case, measured: Measured) -> list[Condition]:
-    """Judge what each sketch says of the order of its moments, and a hero's of the time from its trigger on."""
+    """Judge what each sketch says of the order of its moments, and a hero's of all its pieces."""
     conditions = [_in_order(case, measured)]
     for hero in case.program.heroes:
-        knot = case.structure.trigger_knot(hero.id)
-        if knot is None or knot == hero.sketch.knots[-1]:
-            continue
-        first = hero.sketch.knot_index(knot)
-        if hero.sketch.pieces[first] in SIGN_OF:
-            conditions += _beginning(case, measured, hero, hero.sketch.pieces[first])
-        for index in range(first, len(hero.sketch.pieces)):
+        trigger = case.structure.trigger_knot(hero.id)
+        for index, kind in enumerate(hero.sketch.pieces):
+            if kind in SIGN_OF and hero.sketch.knots[index] == trigger:
+                conditions += _beginning(case, measured, hero, kind)
+            elif kind in SIGN_OF:
+                conditions += _seen(case, measured, hero, index)
             conditions += _piece(case, measured, hero, index)
     return conditions
 
@@ -104,6 +104,31 @@ def _beginning(case: Case, measured: Measured, hero: Actor, kind: PieceKind) -> 
     yield Condition(f"{hero.name}_settled", "interaction", text, settled_mpss, worst, over, "m/s^2", miss)
 
 
+def _seen(case: Case, measured: Measured, hero: Actor, index: int) -> Iterator[Condition]:
+    """Judge that a piece of braking or speeding up that begins at no trigger is one, from its beginning on."""
+    span, kind, manner = measured.moments.spans.get((hero.id, index)), hero.sketch.pieces[index], case.program.manner
+    stood = kind is PieceKind.DEC and hero.sketch.pieces[max(0, index - 1)] is PieceKind.STOP
+    if span is None or stood:
+        return  # that it never came to it is told of the piece; who stands does not brake
+    name, verb = hero.sketch.piece_names()[index], _VERBS[kind]
+    begins_s = float(manner.begins_s)
+    text = f"{called(hero.name)} begins to {verb} where it is to, and goes on for {begins_s:g} s, or until it stands"
+    timeline = case.timelines[hero.id]
+    phase = phase_at(timeline, span[0], SIGN_OF[kind], manner)
+    if phase is None or phase.start_s >= span[1]:
+        reason = f"{called(hero.name)} did not {verb} then"
+        yield unjudged(f"{hero.name}_{name}_onset", "interaction", text, reason)
+        return
+    late_s = max(0.0, phase.start_s - span[0])
+    last_s = min(phase.end_s, span[1])
+    stands = float(timeline.speed(np.array([last_s]))[0]) < float(manner.stands_mps) or last_s >= case.end_s - 1e-9
+    short_s = 0.0 if stands else max(0.0, begins_s - (last_s - max(phase.start_s, span[0])))
+    yield bounded(
+        f"{hero.name}_{name}_onset", "interaction", text,
+        required=span[0], measured=span[0] + late_s, error=max(late_s, short_s), dimension="time",
+    )  # fmt: skip
+
+
 def _piece(case: Case, measured: Measured, hero: Actor, index: int) -> Iterator[Condition]:
     kind = hero.sketch.pieces[index]
     name, doing = hero.sketch.piece_names()[index], does(kind, hero.sketch.pieces[:index].count(kind))
@@ -129,7 +154,7 @@ def _piece(case: Case, measured: Measured, hero: Actor, index: int) -> Iterator[
             required=0.0, measured=top, error=top, dimension="speed",
         )  # fmt: skip
         if set(hero.sketch.pieces[index + 1 : index + 2]) & {PieceKind.GO, PieceKind.ACC}:
-            yield _goes_again(case, hero, span[0])
+            yield _goes_again(case, hero, span)
     elif kind is PieceKind.DEC and _ends_standing(case, measured, hero, index):
         yield _stands(case, hero, span[0])
 
@@ -157,12 +182,14 @@ def _stands(case: Case, hero: Actor, since_s: float) -> Condition:
     )  # fmt: skip
 
 
-def _goes_again(case: Case, hero: Actor, since_s: float) -> Condition:
+def _goes_again(case: Case, hero: Actor, span: Span) -> Condition:
+    """Judge that somebody moves off where it is to stand no longer."""
     who, manner = called(hero.name), case.program.manner
     text = f"{who} moves off again after standing (faster than {float(manner.stands_mps):g} m/s)"
-    moved = move_off_after(case.timelines[hero.id], since_s, manner)
+    moved = move_off_after(case.timelines[hero.id], span[0], manner)
     if moved is None:
         return unjudged(f"{hero.name}_goes_again", "interaction", text, f"{who} stood to the end of the run")
+    late_s = max(0.0, moved - span[1])
     return bounded(
-        f"{hero.name}_goes_again", "interaction", text, required=None, measured=moved, error=0.0, dimension="time"
+        f"{hero.name}_goes_again", "interaction", text, required=span[1], measured=moved, error=late_s, dimension="time"
     )

@@ -38,6 +38,7 @@ SIGN_OF: dict[PieceKind, Sign] = {PieceKind.DEC: BRAKING, PieceKind.ACC: SPEEDIN
 Group = frozenset[KnotKey]
 Tie = Literal["fixed", "visible", "free"]
 _TIE = 1e-3
+_ROUNDING_MPS = 0.005  # speeds that differ by less are the same
 _LOOK_S = 0.25  # shorter than any phase
 _NEAR_S = 1.0  # within tolerances a moment is no point
 _PASSES = 3  # a knot may be defined by another actor's, which may be defined by a third
@@ -249,7 +250,8 @@ def _time_of(
     visible = None if key[0] == EGO else _visible_time(case, key, index, previous)
     stood = index > 0 and pieces[index - 1] is PieceKind.STOP
     if not (stood and visible is not None and np.isfinite(visible)):  # all the time that it stands it is at one place
-        if (found := _defined_time(case, key, previous, knots)) is not None:
+        begins_s = visible if pieces[index : index + 1] and pieces[index] in SIGN_OF else None
+        if (found := _defined_time(case, key, previous, knots, begins_s)) is not None:
             return found
         if visible is None:
             time_s = _stated_time(case, key, knots)
@@ -272,15 +274,18 @@ def _level(case: Case, part: Compare, key: KnotKey, knots: Mapping[KnotKey, Valu
     return np.broadcast_to(np.where(np.isnan(level), np.inf, level), time_s.shape)
 
 
-def _defined_time(case: Case, key: KnotKey, after_s: float, knots: dict[KnotKey, float]) -> tuple[float, Tie] | None:
+def _defined_time(
+    case: Case, key: KnotKey, after_s: float, knots: dict[KnotKey, float], begins_s: float | None
+) -> tuple[float, Tie] | None:
     """Return the time of a knot from what the program says of the actor's state there; None where it says nothing.
 
-    A speed or a time to arrival may be had more than once, so they do not tie it.
+    A speed or a time to arrival may be had more than once, so they do not tie it: where braking or speeding up visibly
+    begins next, it is at first taken to be there, at `begins_s`.
     """
     if not np.isfinite(after_s):
         return np.inf, "fixed"
     if demands_standstill(case, key, knots):
-        return _rest_time(case, key, after_s), "fixed"
+        return _rest_time(case, key, after_s), _tie_of_standstill(case, key)
     parts = []
     for part in _equalities(case, key, set(knots)):
         orders = {_order_at(n, key) for n in walk(part)} - {None, 2}
@@ -292,6 +297,8 @@ def _defined_time(case: Case, key: KnotKey, after_s: float, knots: dict[KnotKey,
     # A place defines a moment better than a speed, and one of its own better than how far it is from another.
     (only_speed, *_), part = min(parts, key=lambda item: item[0])
     if only_speed:
+        if begins_s is not None and np.isfinite(begins_s):
+            return begins_s, "free"
         return _reached_speed(case, part, key, after_s, knots), "free"
     time_s = _place_time(case, part, key, after_s, knots)
     if np.isfinite(time_s):
@@ -342,13 +349,39 @@ def _rest_time(case: Case, key: KnotKey, after_s: float) -> float:
     return float(later[np.argmin(timeline.speed(later))])
 
 
+def _tie_of_standstill(case: Case, key: KnotKey) -> Tie:
+    """Return what ties a knot to the beginning of a standstill: who brakes to one is there when it stands."""
+    sketch = case.program.actor(key[0]).sketch
+    index = sketch.knot_index(key[1])
+    if index > 0 and sketch.pieces[index - 1] in SIGN_OF:
+        return "fixed"
+    # Who moves as it likes may have stood before, and may stand for longer than the moment.
+    return "visible" if sketch.pieces[index : index + 1] == (PieceKind.STOP,) else "free"
+
+
 def _reached_speed(case: Case, part: Compare, key: KnotKey, after_s: float, knots: dict[KnotKey, float]) -> float:
     later = case.program.actor(key[0]).sketch.knots[case.program.actor(key[0]).sketch.knot_index(key[1]) + 1 :]
     before_s = min((knots.get((key[0], knot), np.inf) for knot in later), default=np.inf)
-    grid = case.timelines[key[0]].instants(after_s, min(before_s, case.end_s))
-    reached = first_crossing(lambda t: _level(case, part, key, knots, t), grid)
-    # A speed that is approached and never quite met is judged where it was met best.
-    return float(grid[np.argmin(np.abs(_level(case, part, key, knots, grid)))]) if reached is None else reached
+    grid = _while(case, key, case.timelines[key[0]].instants(after_s, min(before_s, case.end_s)))
+    # A speed that is approached and never quite met is judged where it was met best, from the first time on.
+    off_mps = np.abs(_level(case, part, key, knots, grid))
+    first = int(np.argmax(off_mps <= np.min(off_mps) + _ROUNDING_MPS))
+    reached = first_crossing(lambda t: _level(case, part, key, knots, t), grid[: first + 2])
+    return float(grid[first]) if reached is None else reached
+
+
+def _while(case: Case, key: KnotKey, times: FloatArray) -> FloatArray:
+    """Return those of some times before which an actor plainly does the contrary of the piece that ends at a knot.
+
+    A speed that is not quite met there may be met later, in another piece.
+    """
+    sketch = case.program.actor(key[0]).sketch
+    sign = SIGN_OF.get(sketch.pieces[sketch.knot_index(key[1]) - 1])
+    if sign is None or key[1] == sketch.knots[0]:
+        return times
+    speeds = sign * case.timelines[key[0]].speed(times)
+    contrary = np.maximum.accumulate(speeds) - speeds > TIGHT.speed_mps
+    return times[: int(np.argmax(contrary))] if contrary.any() else times
 
 
 def _place_time(case: Case, part: Compare, key: KnotKey, after_s: float, knots: dict[KnotKey, float]) -> float:
@@ -398,8 +431,13 @@ def visible_times(case: Case, key: KnotKey, low_s: float, high_s: float) -> list
     if key[0] == EGO:
         return []
     index = case.program.actor(key[0]).sketch.knot_index(key[1])
-    looked = (_visible_time(case, key, index, float(t)) for t in np.arange(low_s, high_s, _LOOK_S))
-    return sorted({time_s for time_s in looked if time_s is not None and low_s <= time_s <= high_s})
+    found = set()
+    for look_s in np.arange(low_s, high_s, _LOOK_S).tolist():
+        time_s = _visible_time(case, key, index, look_s)
+        # Who stands already when it is looked for does not begin to.
+        if time_s is not None and low_s <= time_s <= high_s and (time_s > look_s or look_s == low_s):
+            found.add(time_s)
+    return sorted(found)
 
 
 def _stated_time(case: Case, key: KnotKey, knots: dict[KnotKey, float]) -> float | None:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from scenewright.plan.preferences import preferences_of
 from scenewright.plan.triggers import adapts_until
-from scenewright.program.structure import Structure, actors_of, knots_of, speeds_told_at
+from scenewright.program.structure import Structure, actors_of, knots_of, speeds_told_at, stands_at_end
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
 from scenewright.roads.routes import Route
@@ -28,6 +28,7 @@ from scenewright.solve.proofs.polynomials import Atom, Polynomial
 Array = NDArray[np.float64]
 
 TIGHT = {"time": 0.1, "place": 0.5, "speed": 0.25, "rate": 0.25, "other": 1.0}
+_SPARE = 0.5  # of a tight tolerance; chosen
 _AROUND_M, _STEP_M = 2.0, 0.5  # between two nodes of a plan a car goes a few metres
 _OF_TOP, _OF_LATERAL = 0.99, 0.97  # between two nodes a speed may be a little higher than at both
 
@@ -36,13 +37,15 @@ _OF_TOP, _OF_LATERAL = 0.99, 0.97  # between two nodes a speed may be a little h
 class Row:
     """One comparison at some values: its level in tight tolerances (at most zero, or zero), and its slopes.
 
-    `order` says that it compares nothing but times, of which one is to be the earlier.
+    `order` says that it compares nothing but times, one the ego's alone, of which one is to be the earlier. By `spare`
+    it is to be more than met: which of two heroes comes first is no matter of rounding.
     """
 
     level: float
     slope: Array
     equal: bool
     order: bool
+    spare: float = 0.0
 
 
 class Asked:
@@ -68,7 +71,10 @@ class Asked:
         self.times = [number_of(time) for time in self.events.times]
         self._scale = np.array([*(TIGHT[unknown.kind] for unknown in self.events.unknowns), 0.0])
         atoms = self._formulas.atoms
-        self._orders = [self._is_order(atom) for atom in atoms]
+        times_of = [self._times_of(atom) for atom in atoms]
+        self._orders = [EGO in whose for whose in times_of]
+        alone = [len(whose) == len(atom.left.terms) == 2 for whose, atom in zip(times_of, atoms, strict=True)]
+        self._spares = [_SPARE * (two and EGO not in whose) for two, whose in zip(alone, times_of, strict=True)]
         self._quotients = list(self._quotients_of(atoms))
         self.caps = {
             hero.id: caps_of(scene.routes[hero.id], limits[hero.id], self.wanted.lateral_mpss)
@@ -81,6 +87,7 @@ class Asked:
             for hero, name in self.adapts_until.items()
             if hero in speeds_told_at(scene.program, structure.triggers.get(hero, frozenset({(hero, name)})))
         }
+        self.stand = {hero.id for hero in scene.program.heroes if stands_at_end(scene.program, hero.id)}
         self.zones_m = {}
         for hero in scene.program.heroes:
             conflict = scene.conflict(EGO, hero.id)
@@ -124,19 +131,23 @@ class Asked:
         settled = (missed > 1.0) & ~np.any(changes != 0.0, axis=1)
         chosen = self._formulas.chosen(np.where(settled, np.inf, missed))
         for k in chosen:
-            yield Row(float(levels[k]), changes[k], bool(equal[k]), self._orders[k] and not equal[k])
+            order, spare = (self._orders[k], self._spares[k]) if not equal[k] else (False, 0.0)
+            yield Row(float(levels[k]), changes[k], bool(equal[k]), order, spare)
         for k, _, speed in self._quotients:
             if k in chosen and equal[k] and np.any(slopes[speed]):  # who stands where it is to be arrives at no time
                 short_mps = self.wanted.moves_mps - float(point[speed])
                 yield Row(short_mps / TIGHT["speed"], -slopes[speed] / TIGHT["speed"], equal=False, order=False)
 
-    def _is_order(self, atom: Atom) -> bool:
-        """Whether a comparison is of nothing but times, the ego's among them."""
+    def _times_of(self, atom: Atom) -> set[int]:
+        """Return whose times a comparison is of, the ego's where they are its alone; nobody's where it is of more.
+
+        A moment that is "2 s later" by what it is defined as is not one that is to be earlier or later.
+        """
         keys = [key for key in atom.left.terms if key]
         instants = {number: instant for instant, number in enumerate(self.times) if number is not None}
-        if any(len(key) != 1 or key[0] not in instants for key in keys):
-            return False
-        return any((EGO, instants[key[0]]) in self.events.states for key in keys)
+        if any(len(key) != 1 or instants.get(key[0]) in (None, *self.events.defined) for key in keys):
+            return set()
+        return {max((a for a, k in self.events.states if k == instants[key[0]]), default=-1) for key in keys}
 
     def _quotients_of(self, atoms: Sequence[Atom]) -> Iterator[tuple[int, int, int]]:
         """Yield atoms that compare times, a place over a speed: their numbers, those of the place and of the speed."""

@@ -216,7 +216,8 @@ class PairRows:
         worst = 0.0
         for _, short_m, slopes, columns, margin_m in self._all():
             bounds.by = columns
-            bounds.add_all(short_m, slopes, self.wanted.clear_price)
+            if len(columns):  # who only carries out what was planned enters where it enters
+                bounds.add_all(short_m, slopes, self.wanted.clear_price)
             worst = max(worst, float(short_m.max()) / margin_m)
         bounds.by = None
         return worst

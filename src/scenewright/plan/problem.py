@@ -89,7 +89,7 @@ class Problem(Unknowns):
             by = max(by, abs(row.level) if row.equal else row.level)
             rows = costs if row.equal else bounds
             of_start = np.count_nonzero(row.slope) == np.count_nonzero(row.slope[self._begins])
-            rows.add(row.level, row.slope, (FIRM if of_start else 1.0) * wanted.price)
+            rows.add(row.level + row.spare, row.slope, (FIRM if of_start else 1.0) * wanted.price)
         return Missed(by, late_s)
 
     def _point(self, z: Array, shots: Mapping[int, Shot]) -> tuple[Array, Array]:

@@ -175,10 +175,11 @@ class HeroRows:
     def _pieces(self) -> None:
         """Add what makes pieces be seen for what they are, and how long they usually last."""
         legs, price = self.shot.legs, self.asked.wanted.price
-        for number, leg in enumerate(legs[:-1]):
+        for number, leg in enumerate(legs):
             if leg.kind is PieceKind.STOP:
                 _, v, _, d_v = self.shot.at_node(self.shot.first_node[number])
                 self.costs.add(v, d_v, price / _STILL_MPS)
+        for number, leg in enumerate(legs[:-1]):
             if self._sets_off(number):
                 self._begins(number, 1.0)
             if sense := _SENSE.get(leg.kind):

@@ -103,14 +103,16 @@ class Standing:
                 expected[instant] = planned[instant] = guesses[hero.id].knot_times_s.get(name, joint_s)
         for actor in self.scene.program.actors:
             now, told = 0.0, guesses[actor.id].knot_times_s if actor.id in guesses else {}
+            before = self._asked.knot(actor.id, actor.sketch.knots[0])
             for name in actor.sketch.knots:
                 instant = self._asked.knot(actor.id, name)
                 if instant not in knots:
                     soonest_s = [at_s + self._asked.least_s[known, instant] for known, at_s in knots.items()]
                     chained = self.structure.trigger_knot(actor.id) is None and actor.id in self._asked.adapts_until
-                    usual_s = max([now + self._asked.wanted.lasts_s, *(soonest_s if chained else ())])
+                    lasts_s = max(self._asked.wanted.lasts_s, self._asked.least_s[before, instant])
+                    usual_s = max([now + lasts_s, *(soonest_s if chained else ())])
                     expected.setdefault(instant, told.get(name, usual_s))
-                now = knots.get(instant, expected.get(instant, now))
+                now, before = knots.get(instant, expected.get(instant, now)), instant
         for instant, at_s in self._moments_s.items():
             if instant not in knots:
                 expected.setdefault(instant, at_s)

@@ -194,7 +194,7 @@ class Unknowns:
         if piece < len(pieces):
             nodes[instants[-1]] = len(legs)
         last = knots[-1] if piece < len(pieces) else begin
-        after = PieceKind.STOP if pieces[-1] is PieceKind.STOP else PieceKind.GO
+        after = PieceKind.STOP if hero.id in asked.stand else PieceKind.GO
         self._add_leg(hero, len(pieces) - 1, after, last, Moment(last.constant_s + AFTER_LAST_S, last.unknown))
 
     def _start(self, hero: Actor) -> Start:

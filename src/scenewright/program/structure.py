@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
+from fractions import Fraction
 
 from scenewright.program.expressions import (
     Compare,
@@ -18,11 +19,12 @@ from scenewright.program.expressions import (
     Knot,
     Logic,
     Node,
+    Number,
     PieceRef,
     State,
     walk,
 )
-from scenewright.program.types import EGO, Constraint, Program
+from scenewright.program.types import EGO, Constraint, PieceKind, Program
 
 KnotKey = tuple[int, str]
 
@@ -122,6 +124,14 @@ def speeds_told_at(program: Program, instant: frozenset[KnotKey]) -> set[int]:
     formulas = (constraint.formula for constraint in program.constraints)
     told = [formula for formula in formulas if isinstance(formula, Compare) and set(knots_of(formula)) <= instant]
     return {node.actor for each in told for node in walk(each) if isinstance(node, State) and node.order == 1}
+
+
+def stands_at_end(program: Program, actor: int) -> bool:
+    """Whether a program ends with somebody standing: its last piece, or the speed that it is to have there, says so."""
+    sketch = program.actor(actor).sketch
+    stands = State(actor, 1, Knot(sketch.knots[-1])), Number(Fraction(0))
+    told = (c.formula for c in program.constraints if isinstance(c.formula, Compare) and c.formula.operator == "==")
+    return sketch.pieces[-1] is PieceKind.STOP or any((each.left, each.right) == stands for each in told)
 
 
 def synchronised(formula: Formula) -> Iterator[tuple[KnotKey, KnotKey]]:

@@ -5,11 +5,13 @@ What enters: the parser's own exception and the text. What leaves: a `ProgramErr
 
 from __future__ import annotations
 
+import re
 from typing import cast
 
 from lark.exceptions import UnexpectedCharacters, UnexpectedEOF, UnexpectedInput, UnexpectedToken
 
 from scenewright.errors import Place, ProgramError, Span
+from scenewright.program.expressions import LANDMARKS
 
 # In the order of how much they help: a message shows the first few of what is possible.
 _TERMINAL_NAMES = {
@@ -50,6 +52,7 @@ _TERMINAL_NAMES = {
     "CONSTRAINTS_HEAD_SMALL": "'Constraints:'",
 }
 _SHOWN = 8
+_PARTNER = re.compile(rf"\b({'|'.join(LANDMARKS)})(?=\((A\d+)\))")  # a landmark with somebody, and not whose
 
 
 def syntax_error(error: UnexpectedInput, text: str, name: str) -> ProgramError:
@@ -80,5 +83,13 @@ def syntax_error(error: UnexpectedInput, text: str, name: str) -> ProgramError:
         place=Place(name, text, Span(start, min(start + width, line_end if line_end > start else start + width))),
         found=repr(found) if found != end else found,
         expected=", ".join(expected[:_SHOWN]) or None,
-        fix="compare with a working program: 'scenewright translate \"...\"' prints one",
+        fix=_fix(text, start),
     )
+
+
+def _fix(text: str, at: int) -> str:
+    """Say what to do about what stands at an offset."""
+    for whose in _PARTNER.finditer(text):
+        if whose.end() == at:
+            return f"say whose it is, too: A1.{whose[1]}({whose[2]}) where it is that of actor 1"
+    return "compare with a working program: 'scenewright translate \"...\"' prints one"

@@ -12,7 +12,7 @@ from itertools import pairwise
 import numpy as np
 
 from scenewright.motion.profile import Profile, Segment
-from scenewright.program.structure import Structure
+from scenewright.program.structure import Structure, knots_of
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import TIGHT_TIME_S, LinearCondition, linear_conditions, tight_of
@@ -31,12 +31,15 @@ def ego_left_no_room(
     """Return the proof that against this drive of the ego no hero within `limits` could meet all conditions.
 
     The ego may be at its side of the trigger more than once, or for a while: every such moment is refuted, or nothing
-    is claimed. None where there is no such proof, or where the ego never came to its side, which the judge tells.
+    is claimed. Nor is it where another moment of the ego's hangs on heroes: with another hero it is another. None where
+    there is no such proof, or where the ego never came to its side, which the judge tells.
     """
     motion = drive_profile(trace.actors[scene.program.ego.name])
     conditions = [c for c in linear_conditions(scene, structure) if set(c.weights) == {EGO} and c.weights[EGO][0]]
     side = next((c for c in conditions if c.moments == {(EGO, structure.trigger_knot(EGO))}), None)
-    if side is None:
+    told = {key for c in conditions for key in c.moments} | {(EGO, scene.program.ego.sketch.knots[0])}
+    asked = {key for c in scene.program.constraints for key in knots_of(c.formula) if key[0] == EGO}
+    if side is None or asked - told:
         return None
     moments = _moments_at(side, motion, trace.duration_s)
     if not 0 < len(moments) <= _MOST_MOMENTS:

@@ -83,16 +83,26 @@ def refused(what: str, fix: str, quote: st.Quote | None = None) -> TranslationEr
     return TranslationError(f"{what} cannot be said in a program yet", found=quote.text if quote else None, fix=fix)
 
 
+def refused_kind(kind: str, quote: st.Quote | None) -> TranslationError:
+    """Return the error that names a road user whom no program drives."""
+    return refused(f"a {kind}", f"there may be any number of: {', '.join(DRIVEN)}", quote)
+
+
+def refused_deed(verb: str, quote: st.Quote | None) -> TranslationError:
+    """Return the error that names a deed that no program knows."""
+    return refused(f"'{verb}'", f"what somebody may do: {', '.join(st.Verb)}", quote)
+
+
 def _check_known(story: st.Story) -> None:
     for actor in story.actors:
         if actor.kind not in DRIVEN:
-            raise refused(f"a {actor.kind}", f"there may be any number of: {', '.join(DRIVEN)}", actor.quote)
+            raise refused_kind(actor.kind, actor.quote)
         for relation in actor.relations:
             fix = "say which way each drives; who is ahead, behind, oncoming or comes from a side can be said"
             raise refused(f"that somebody is {relation.kind}", fix, relation.quote)
     for deed in story.deeds:
         if deed.verb not in set(st.Verb):
-            raise refused(f"'{deed.verb}'", f"what somebody may do: {', '.join(st.Verb)}", deed.quote)
+            raise refused_deed(deed.verb, deed.quote)
         if deed.actor == pt.EGO:
             raise refused("a deed of the ego", "the policy under test drives it; say what the others do", deed.quote)
     for hero in story.heroes:

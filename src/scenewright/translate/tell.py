@@ -208,7 +208,7 @@ class Teller(Phrases):
     def _begin(self, deed: st.Deed, chain: tuple[st.Deed, ...], index: int) -> tuple[str, bool]:
         """Return the words before the subject, and whether the deed is told as one that begins: ``When ..., ``."""
         if index == 0:
-            return "", False
+            return ("At the start, " if deed.verb in (st.Verb.BRAKE, st.Verb.SPEED_UP) else ""), False
         if chain[index - 1].verb in _LASTING:
             items = self._items(deed.begins)
             return (f"When {listed(items)}, ", True) if items else ("Then ", False)

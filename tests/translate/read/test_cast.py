@@ -5,9 +5,11 @@ from __future__ import annotations
 import pytest
 
 from scenewright.errors import UnknownWordsError
+from scenewright.program.printer import print_expression
 from scenewright.translate.read.cast import NEW
 from scenewright.translate.read.sentences import read
 from scenewright.translate.story import Story
+from scenewright.translate.understand import understand
 
 EGO = "The ego turns left out of the driveway. "
 
@@ -60,3 +62,13 @@ def test_who_does_something_is_not_the_ego() -> None:
 def test_who_cannot_be_told_apart_is_refused(text: str) -> None:
     with pytest.raises(UnknownWordsError):
         read(EGO + "A bus drives west. A van drives east. The hero drives west. " + text)
+
+
+def test_a_second_one_is_somebody_new_and_the_first_one_is_the_other() -> None:
+    text = "The ego drives west. A car drives west 40 m ahead of the ego. A second car drives west 30 m ahead of the first "
+    text += "car. When the ego is 25 m behind the first car, the second car brakes."
+    story = understand(text).story
+    assert [actor.name for actor in story.actors] == ["ego", "car", "second car"]
+    program = understand(text).program
+    formulas = {print_expression(each.formula) for each in program.constraints}
+    assert {"gap(A1, A2, t0) == 30", "gap(A0, A1, t1) == 25", "A0(t1) == A2(t1)"} <= formulas

@@ -197,3 +197,107 @@ def test_what_is_said_between_a_moment_and_what_happens_then_does_not_part_them(
     assert {"gap(A0, A1, t1) == 12", "A0v(t0) == 8", "A1v(t2) == 0"} <= found
     timed = formulas(reading_of(ALONG + "Trigger: 5 s after the start. Action: the hero brakes."))
     assert "A1(t1) == 5" in timed
+
+
+@pytest.mark.parametrize(
+    ("said", "held"),
+    [
+        ("does not brake and goes first", "A1a(go2) >= 0"),
+        ("goes first without slowing down", "A1a(go2) >= 0"),
+        ("never brakes", "A1a(go2) >= 0"),
+        ("does not stop and goes first", "A1v(go2) >= 1"),
+        ("keeps driving without stopping", "A1v(go2) >= 1"),
+    ],
+)
+def test_what_somebody_does_not_do_is_held(said: str, held: str) -> None:
+    assert held in formulas(reading_of(f"{MEETS}the hero {said}."))
+
+
+@pytest.mark.parametrize("said", ["brakes at 3 m/s^2 but does not stop", "brakes and does not slow down"])
+def test_what_somebody_does_and_does_not_is_refused(said: str) -> None:
+    assert "the contrary" in str(reading_of(f"{MEETS}the hero {said}.").told)
+
+
+@pytest.mark.parametrize(
+    ("said", "more"),
+    [
+        ("brakes to a stop 8 m before the conflict point. It decelerates at no more than 4 m/s^2.",
+         {"A1a(dec) >= -4", "A1x(t2) == conflict_point - 8"}),
+        ("brakes at 3 m/s^2. It stops.", {"A1a(dec) == -3", "A1v(t2) == 0"}),
+        ("begins to brake. It comes to a stop 8 m before the conflict point.", {"A1x(t2) == conflict_point - 8"}),
+        ("brakes. It comes to a stop 2 s after it begins to brake.", {"A1(t2) - A1(t1) == 2"}),
+        ("brakes. It brakes to 5 m/s.", {"A1v(t2) == 5"}),
+        ("accelerates. It accelerates at 2 m/s^2 to 12 m/s.", {"A1a(acc) == 2", "A1v(t2) == 12"}),
+    ],
+)  # fmt: skip
+def test_a_deed_told_in_two_sentences_is_one(said: str, more: set[str]) -> None:
+    reading = reading_of(f"{MEETS}the hero {said}")
+    assert more <= formulas(reading)
+    assert pieces(reading) in ("go dec", "go acc")
+
+
+def test_a_deed_told_twice_that_contradicts_itself_is_refused() -> None:
+    reading = reading_of(f"{MEETS}the hero brakes to a stop 8 m before the conflict point. It brakes to 5 m/s.")
+    assert "two amounts for one thing" in str(reading.told)
+    assert pieces(reading_of(f"{MEETS}the hero brakes to 5 m/s. Then it brakes to a stop.")) == "go dec dec"
+
+
+def test_what_follows_an_end_is_said_of_the_end() -> None:
+    found = formulas(reading_of(f"{MEETS}the hero accelerates until it passes the conflict point 2 s before the ego."))
+    assert "A0(t2) - A1(t2) == 2" in found
+    first = reading_of(f"{ONCOMING}2 s before the ego reaches the conflict point, the hero brakes to a stop.")
+    assert "A0(t1) - A1(t1) == 2" in formulas(first)
+
+
+THREE = "The ego drives west. A truck drives west 40 m ahead of the ego. An oncoming van turns left. "
+TRIGGER = "When the ego is 50 m before the intersection, the truck brakes at 2 m/s^2 to a stop"
+
+
+@pytest.mark.parametrize(
+    ("said", "tied"),
+    [
+        (". At the same time the van brakes.", "A0(t1) == A2(t1)"),
+        (", and at the same time the van brakes.", "A0(t1) == A2(t1)"),
+        (", and the van is 20 m before the conflict point and brakes.", "A0(t1) == A2(t1)"),
+        (". Then the van brakes.", "A2(t1) > A1(t2)"),
+        (", and then the van goes on.", "A2(t1) > A1(t2)"),
+        (". 2 s later the van brakes.", "A2(t1) - A1(t1) == 2"),
+        (". At least 2 s after that, the van brakes.", "A2(t1) - A1(t1) >= 2"),
+        (". 2 s later it goes on.", "A1(t3) - A1(t2) == 2"),
+        (" while the van keeps its speed.", "A2a(go2) == 0"),
+    ],
+)
+def test_what_another_does_is_tied_to_what_was_told(said: str, tied: str) -> None:
+    assert tied in formulas(reading_of(f"{THREE}{TRIGGER}{said}"))
+
+
+def test_what_nothing_ties_is_refused() -> None:
+    for said in ("The van brakes to a stop.", "The van accelerates at 2 m/s^2."):
+        assert "not clear when" in str(reading_of(f"{THREE}{TRIGGER}. {said}").told)
+        assert reading_of(f"{THREE}{TRIGGER}. At the start, {said}").program is not None
+    assert "not clear when" in str(reading_of(f"{ONCOMING}The hero crosses the stop line at 5 m/s.").told)
+
+
+def test_a_range_is_two_bounds_and_just_past_is_as_far_as_just_before() -> None:
+    reading = reading_of(f"{ALONG}When the ego is between 15 m and 20 m behind the hero, the hero brakes.")
+    assert {"gap(A0, A1, t1) >= 15", "gap(A0, A1, t1) <= 20"} <= formulas(reading)
+    stands = reading_of(f"{MEETS}the hero brakes to a stop just past the conflict point.")
+    assert "A1x(t2) == conflict_point + 5" in formulas(stands)
+
+
+def test_the_sign_of_a_deceleration_says_it_again_and_that_of_an_acceleration_contradicts_it() -> None:
+    assert "A1a(dec) == -3" in formulas(reading_of(f"{MEETS}the hero brakes with a deceleration of -3 m/s^2."))
+    assert reading_of(f"{MEETS}the hero accelerates at -2 m/s^2.").program is None
+
+
+@pytest.mark.parametrize(
+    ("text", "named"),
+    [
+        ("The ego drives west. A pedestrian crosses the road in front of the ego.", "a pedestrian"),
+        ("The ego drives west at 40 km/h. A cyclist comes from the right and does not give way.", "a cyclist"),
+        ("The ego drives west. A car merges from the driveway in front of the ego, 20 m ahead of it.", "'merges'"),
+        (f"{MEETS}the hero cuts off the ego.", "'cuts off'"),
+    ],
+)
+def test_what_no_program_says_is_named_before_what_is_unclear(text: str, named: str) -> None:
+    assert f"{named} cannot be said in a program yet" in str(reading_of(text).told)

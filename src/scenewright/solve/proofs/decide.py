@@ -169,6 +169,12 @@ def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> De
     return Decision("undecided", left_out=left_out, amiss=hunt.amiss)
 
 
+def shown(question: Question, guesses: int) -> tuple[Witness | None, float]:
+    """Look for a witness alone, from so many guesses at most; return it, and how long that took (s, by its work)."""
+    hunt = _Hunt(question, most := guesses * _WORK_PER_S)
+    return hunt.witness(guesses), (most - hunt.left) / _WORK_PER_S
+
+
 @dataclass(slots=True)
 class _Hunt:
     """Looks for a witness from one guess after another, as long as there is work `left`.

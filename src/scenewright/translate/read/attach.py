@@ -125,15 +125,21 @@ def _give(taken: Taken, at: int, op: st.Operator, chunk: Chunk) -> None:
         slowing = taken.quantity == "deceleration" or clause.deed in (st.Verb.BRAKE, "stop")
         if (clause.deed, taken.quantity) in _CONTRARY:
             raise taken.left_over(chunk)  # nobody brakes with an acceleration
+        if slowing and amount.value is not None and amount.value < 0:  # "brakes at -3 m/s^2": the sign says it again
+            amount = replace(amount, value=-amount.value)
+        if clause.deed == st.Verb.SPEED_UP and amount.value is not None and amount.value <= 0:
+            raise taken.left_over(chunk)
         taken.measure(chunk, st.Measure(IT, st.Quantity.RATE, op, amount, opposite=slowing))
         if clause.deed is not None:
             clause.rates.append(clause.measures.pop())
         return
     free = [target for target in taken.targets if not target.used]
     target = next((each for each in free if each.at > at), free[-1] if free else None)
+    if at in taken.ranges:
+        target = next((each for each in taken.targets if each.at > at), None) or taken.last
     if target is None:
         raise taken.left_over(chunk)
-    target.used = True
+    target.used, taken.last = True, target
     is_time, side, place = amount.dimension == "time", target.side, target.place
     past = side in ("past", "after") and not is_time
     if place is not None:

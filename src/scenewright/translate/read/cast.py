@@ -15,6 +15,7 @@ from scenewright.translate import story as st
 from scenewright.translate.phrases import OTHERWISE
 from scenewright.translate.read.chunks import Chunk, nearest_words, word_as
 
+_FURTHER = {"second", "third", "fourth"}
 NEW = "somebody new"
 ASIDE, CAR = "set it aside", "a car of that name"
 
@@ -104,7 +105,7 @@ class Cast:
         fitting = [each for each in self.heroes if self._fits(each, chunk, words)]
         fitting = [each for each in fitting if each.name == chunk.value] or fitting
         fitting = [each for each in fitting if words and words <= self.known_by[each.id]] or fitting
-        another = chunk.is_new and any(each.kind == "other" for each in chunk.traits)
+        another = chunk.is_new and (bool(words & _FURTHER) or any(each.kind == "other" for each in chunk.traits))
         some: list[int | None] = [] if another else [each.id for each in fitting]
         if not some and not chunk.is_new and chunk.text.lower() in self.known_by.get(EGO, ()):
             some = [EGO, None]  # "our car ... the car": the ego, or another one?
@@ -190,6 +191,8 @@ class Cast:
             if chunk.kind != "unknown":
                 known.append(chunk)
                 continue
+            if not any(map(str.isalpha, chunk.text)):  # "20 ± 2 m": nobody is called so, and it may well say something
+                self.refuse(f"'{chunk.text}' could not be understood here")
             meant = {f"it means '{word}'": word for word in nearest_words(chunk.text)}
             slot, asked = f"word {chunk.text.lower()}", f"What is '{chunk.text}'?"
             answer = self.ask(slot, asked, [*meant, CAR, ASIDE], None, chunk.quote)

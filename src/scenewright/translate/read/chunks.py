@@ -40,6 +40,7 @@ _ENDS = ".;!?"
 _QUOTES = '"“”'
 _TRAITS = ("heading", "relation", "quality", "other", "turn")
 _LONG = 8  # letters; of shorter words too many differ from another word by one letter
+_SPELLED = 4  # letters; a shorter word is another one, not one that is misspelled, and few slips are the first letter
 _LIKE = 0.86  # of two words of so many letters, one slip apart, 7 letters in 8 agree
 _SUFFIX = {"m": "_m", "s": "_s", "m/s": "_mps", "m/s^2": "_mpss", "km/h": "_kmph", "mph": "_mph", "ft": "_ft"}
 
@@ -318,7 +319,8 @@ def corrected(word: str) -> str | None:
 def nearest_words(word: str) -> list[str]:
     """Return the words of the domain that are spelled most like `word`."""
     single = {words[0] for known in vocabulary().phrases.values() for words, _, _ in known if len(words) == 1}
-    return get_close_matches(word.lower(), sorted(single), n=2, cutoff=0.7)
+    alike = [each for each in sorted(single) if each[0] == word[0].lower()]
+    return get_close_matches(word.lower(), alike, n=2, cutoff=0.7) if len(word) >= _SPELLED else []
 
 
 def word_as(chunk: Chunk, word: str) -> Chunk:

@@ -40,7 +40,8 @@ class Clause:
     Amounts are gathered in lists, so that none takes the place of another; `agree` refuses those that do not fit.
 
     `flags` are: ``standstill``, ``while`` (the end is open), ``to`` a speed, ``first``, ``start``, ``kept`` (its
-    speed), ``way`` (it is open), ``falls`` (an amount that is reached), ``yields``, ``insists``.
+    speed), ``way`` (it is open), ``falls`` (an amount that is reached), ``yields``, ``insists``, ``no stop``,
+    ``no brake``.
     """
 
     quote: st.Quote
@@ -127,6 +128,8 @@ class Taken:
     at: int = 0
     clause: Clause = field(init=False)
     amounts: list[tuple[int, st.Operator, Chunk]] = field(default_factory=list)
+    last: Target | None = None  # what the last amount is counted to
+    ranges: set[int] = field(default_factory=set)  # amounts that end a range: counted to what the one before is
     targets: list[Target] = field(default_factory=list)
     states: set[str] = field(default_factory=set)
     quantity: str | None = None
@@ -154,6 +157,8 @@ class Taken:
                 acts = "deed" in kinds or ("turn" in kinds and "mood" not in kinds)
                 clause.subject, self.subject_at = self.people.who(chunk, acts), self.at
                 clause.notes |= {"relative"} if chunk.kind == "relative" else set()
+            case "quality" if chunk.text.lower() == "first" and self.peek()[0] in ("deed", "phase"):
+                pass  # what it does first is told first
             case "quality" if self.peek(-1)[0] != "be":  # "the truck is red", not "5 m heavy"
                 raise self.left_over(chunk)
             case "be" | "possessive" | "quality":
@@ -165,7 +170,7 @@ class Taken:
             case "near":
                 just = st.Amount(JUST_BEFORE_M, "m", None, chunk.quote)
                 self.amounts.append((self.at, "==", replace(chunk, amount=just)))
-                self._target("before")
+                self._target(value)
             case "side":
                 self._side(chunk)
             case "place" if self.states & {"pass", "reach"} or self.peek()[0] in ("be", "event"):
@@ -181,7 +186,7 @@ class Taken:
                 clause.phase = value
             case "ordinal" if all(each.kind != "ordinal" for each in self.chunks[: self.at]):
                 clause.ordinal = int(value)
-            case "standstill" | "open" | "kept" | "order" | "yields" | "insists":
+            case "standstill" | "open" | "kept" | "order" | "yields" | "insists" | "refrains":
                 clause.flags.add(value)
             case "link" if value == "start":
                 clause.flags.add("start")
@@ -241,6 +246,7 @@ class Taken:
         if amount is None:
             raise self.left_over(chunk)
         lasts = lead == ("side", "for") or (lead == ("joint", "and") and "for" in self.clause.times)
+        lasts |= lead == ("deed", st.Verb.STAND) and self.peek()[0] != "side"  # "waits 2 s"
         if amount.dimension == "time" and lasts:
             self.clause.times.setdefault("for", []).append((op, amount))
         elif (self.peek(1)[1], self.peek(2)[1]) == ("after", "the start"):
@@ -260,6 +266,8 @@ class Taken:
             if self.people.who(self.chunks[self.at]) == own:
                 raise self.left_over(chunk)
             self.at += 2 if (self.peek()[0], self.peek(2)[0]) == ("possessive", "thing") else 0
+        elif side == "between" and kind == "amount":
+            self._range(chunk)
         elif side == "between":
             self._between(chunk)
         elif kind in ("place", *PEOPLE):
@@ -271,6 +279,18 @@ class Taken:
             self.clause.flags.add("to")
         elif not (self.road(side) or kind in _AFTER.get(side, ()) or (side, kind, value) in _INITIAL):
             raise self.left_over(chunk)
+
+    def _range(self, chunk: Chunk) -> None:
+        """Take "between 15 m and 20 m": at least one, at most the other."""
+        low, high = self.at + 1, self.at + 3
+        two = [self.chunks[at].amount for at in (low, high) if at < len(self.chunks)]
+        if self.peek(2)[1] != "and" or len(two) < 2 or two[0] is None or two[1] is None:
+            raise self.left_over(chunk)
+        if two[0].dimension != two[1].dimension:
+            raise self.left_over(chunk)
+        self.amounts += [(low, ">=", self.chunks[low]), (high, "<=", self.chunks[high])]
+        self.ranges.add(high)
+        self.at = high
 
     def _between(self, chunk: Chunk) -> None:
         """Take "between the ego and the hero", "between them"."""

@@ -24,9 +24,9 @@ _PREDICATES = {
 }  # fmt: skip
 _BEGINS_A_CLAUSE = {
     *PEOPLE, "be", "joint", "phase", "deed", "state", "event", "origin", "turn", "mood", "then_headed", "pair",
-    "kept", "order", "yields", "insists", "open",
+    "kept", "order", "yields", "insists", "refrains", "open",
 }  # fmt: skip
-_ACTS = ("deed", "order", "yields", "insists")
+_ACTS = ("deed", "order", "yields", "insists", "refrains")
 _FRONTED = ("side", "turn", "state", "origin", "heading", "area")
 _JOINTS: dict[str, tuple[Literal["and", "or", "if"], str]] = {  # what a word makes of its parts, and what parts them
     "either": ("or", "or"),
@@ -42,6 +42,7 @@ class Segment:
     link: str
     chunks: list[Chunk] = field(default_factory=list)
     margin: tuple[st.Operator, st.Amount] | None = None
+    is_first: bool = False  # it stands in front of what happens
 
 
 def segments_of(chunks: list[Chunk], is_led: bool = False) -> list[Segment]:
@@ -120,10 +121,14 @@ def items_of(people: Cast, chunks: Sequence[Chunk], subject: int | None = None) 
     parser = _Items(people, list(chunks), subject)
     found: list[Clause] = []
     while parser.at < len(parser.chunks):
-        if parser.chunks[parser.at].kind == "comma" or parser.is_joint("and") or parser.is_joint("then"):
+        if parser.chunks[parser.at].kind == "comma" or parser.is_joint("and"):
+            parser.at += 1
+        elif (lead := next((each for each in ("then", "same time") if parser.is_joint(each)), None)) is not None:
+            parser.led.add(lead)
             parser.at += 1
         else:
             item = parser.one(())
+            item.notes, parser.led = item.notes | parser.led, set()
             found += [*parser.others, item]
             parser.others = []
     for item, following in pairwise(found):  # "the ego, a bus and a van drive west"
@@ -139,6 +144,7 @@ class _Items:
     subject: int | None
     at: int = 0
     before: Clause | None = None
+    led: set[str] = field(default_factory=set)  # the words in front of the next clause that say when it is
     turned: set[int | None] = field(default_factory=set)  # who turns, as was said
     both: list[Chunk] = field(default_factory=list)  # of whom a clause is said that is said of two
     others: list[Clause] = field(default_factory=list)  # what the last clause says of the others of them
@@ -238,7 +244,7 @@ class _Items:
 
     def _begins(self, at: int) -> bool:
         """Whether a clause begins here."""
-        skipped = (("joint", "and"), ("link", "then"), ("comma", ","))
+        skipped = (("joint", "and"), ("link", "then"), ("link", "same time"), ("comma", ","))
         while at < len(self.chunks) and (self.chunks[at].kind, self.chunks[at].value) in skipped:
             at += 1
         return at < len(self.chunks) and self.chunks[at].kind in _BEGINS_A_CLAUSE

@@ -16,11 +16,15 @@ from scenewright.errors import UnknownWordsError
 from scenewright.program.manner import USUAL, Manner, manner_of, unit_of
 from scenewright.program.types import DEFAULT_MAP, EGO, Parameter
 from scenewright.translate import story as st
+from scenewright.translate.compile import DRIVEN
 from scenewright.translate.read.cast import Cast
 from scenewright.translate.read.clauses import Clause
 from scenewright.units import UNITS, Unit, unit_of_name
 
 COURTESIES = {"yields", "insists"}
+REFRAINS = {"no stop", "no brake"}
+# Slower than at a walk is as good as standing: who does not stop is this fast at least. Chosen.
+_WALK = st.Amount(Fraction(1), "m/s")
 _LINE = re.compile(r"^(Title:|Map:|Manner:|Parameter) (.*)$", re.MULTILINE)
 _NUMBER = r"(-?\d+(?:[./]\d+)?)(?: ?([A-Za-z][A-Za-z/^0-9]*))?"
 _VALUE = re.compile(rf"(\w+) is (?:open|{_NUMBER})(?:, from {_NUMBER} to {_NUMBER})?\.")
@@ -37,6 +41,7 @@ class Doing:
     throughout: list[st.Measure] = field(default_factory=list)
     quote: st.Quote | None = None
     lasts: list[tuple[st.Operator, st.Amount]] = field(default_factory=list)  # how long
+    rests: bool = False  # no end is told: by custom it comes to a standstill
     reached: list[st.Measure] = field(default_factory=list)  # what is so at its end, whichever that is
 
 
@@ -54,6 +59,7 @@ class Narrative(Cast):
     awaits: st.Quote | None = None  # the sentence that told nothing but a moment: what happens then must follow
     kept: list[tuple[int, st.Quote]] = field(default_factory=list)  # who keeps the speed that it has at the start
     courtesies: list[tuple[int | None, str, st.Quote]] = field(default_factory=list)  # who yields, or does not
+    refrains: list[tuple[int | None, str, st.Quote]] = field(default_factory=list)  # what somebody does not do
     parameters: list[Parameter] = field(default_factory=list)
     manner: Manner = USUAL
     map_name: str = DEFAULT_MAP
@@ -69,9 +75,11 @@ class Narrative(Cast):
             self._keep(actor, quote)
         for who, courtesy, quote in self.courtesies:
             self._check(who, courtesy, quote)
+        for who, what, quote in self.refrains:
+            self._refrain(who, what, quote)
         for doing in self.doings:
-            if doing.ends is None:
-                doing.ends = self.new_moment()
+            self.finish(doing)
+            assert doing.ends is not None
             self.add(doing.ends, doing.reached)
             self.orders += [st.Order(doing.begins, doing.ends, *each, doing.quote) for each in doing.lasts]
         story = st.Story(
@@ -101,11 +109,39 @@ class Narrative(Cast):
             self.refuse("it is not said what happens then", self.awaits, "say it in the next sentence")
 
     def _check(self, who: int | None, courtesy: str, quote: st.Quote) -> None:
-        """Refuse a courtesy that no deed bears out."""
+        """Refuse a courtesy that no deed bears out; whom no program drives is refused by name."""
+        if who is not None and self.actor(who).kind not in DRIVEN:
+            return
         own = [doing for doing in self.doings if who in (None, doing.actor)]
         stops = any(doing.verb in (st.Verb.BRAKE, st.Verb.STAND) for doing in own)
         if not own or stops is not (courtesy == "yields"):
             self.refuse("it is not said what is done to yield, or instead", quote, "say where it stops or passes")
+
+    def _refrain(self, who: int | None, what: str, quote: st.Quote) -> None:
+        """Let somebody not brake, or not stop, in all that it does from its first moment on."""
+        own = [doing for doing in self.doings if doing.actor == who]
+        own = [doing for doing in own if doing.begins != st.START] or own
+        if who is None or not own:
+            self.refuse("it is not said what is done instead", quote, "say it, as in 'drives on without braking'")
+        for doing in own:
+            stands = doing.verb == st.Verb.STAND or st.standstill(who) in self.moments[self.finish(doing)].conditions
+            if stands or (doing.verb == st.Verb.BRAKE and what == "no brake"):
+                self.refuse("this is told, and the contrary", quote, "leave one of them out, or say to which speed")
+            if doing.verb == st.Verb.SPEED_UP:
+                continue
+            if what == "no brake" or self.is_at_rest(doing):
+                doing.throughout.append(replace(steady(who, quote), op=">="))
+            else:
+                doing.throughout.append(st.Measure(who, st.Quantity.SPEED, ">=", _WALK, quote=quote))
+                self.assumptions.append(f"{self.actor(who).name} drives at 1 m/s at least where it does not stop")
+
+    def finish(self, doing: Doing) -> int:
+        """Return the moment at which a deed ends; one that is open is given a moment of its own."""
+        if doing.ends is None:
+            doing.ends = self.new_moment([st.standstill(doing.actor)] if doing.rests else [])
+            rests = f"{self.actor(doing.actor).name} brakes to a standstill"
+            self.assumptions += [rests] * (doing.rests and rests not in self.assumptions)
+        return doing.ends
 
     def _keep(self, actor: int, quote: st.Quote) -> None:
         """Let somebody keep its first speed while it drives on: until its first other deed, if it has one."""
@@ -191,8 +227,7 @@ class Narrative(Cast):
                 self.refuse("nothing was told of this deed before", clause.quote)
             if clause.phase != "finishes" and clause.deed != "stop":
                 return doing.begins
-            doing.ends = self.new_moment() if doing.ends is None else doing.ends
-            return doing.ends
+            return self.finish(doing)
         if not clause.measures or clause.says_more_than("measures", "times"):
             self.refuse("this is no event", clause.quote)
         moment = self._moment_with(clause.measures, one=True)
@@ -236,7 +271,7 @@ class Narrative(Cast):
                 self.doings.append(Doing(actor, first, st.START, moment, quote=self.quote))
                 self.assumptions += [f"{self.actor(actor).name} stands still until then"] * waits
             begins = st.START if moment is None else moment
-        elif before.ends is None:
+        elif before.ends is None and not before.rests:
             begins = before.ends = self.new_moment() if moment is None else moment
         else:
             begins = self._go_on(before, verb, moment, leads)
@@ -245,13 +280,13 @@ class Narrative(Cast):
 
     def _go_on(self, before: Doing, verb: str, moment: int | None, leads: set[str]) -> int:
         """Return where a deed begins after one whose end is known; what lies between is standing or driving on."""
-        assert before.ends is not None
-        stands = st.standstill(before.actor) in self.moments[before.ends].conditions
+        ended = self.finish(before)
+        stands = st.standstill(before.actor) in self.moments[ended].conditions
         sets_off = verb in (st.Verb.DRIVE, st.Verb.SPEED_UP) and before.verb != st.Verb.STAND
         waits = stands and sets_off and "at once" not in leads
-        if moment == before.ends or (moment is None and not waits):
-            return before.ends
-        between = Doing(before.actor, st.Verb.STAND if stands else st.Verb.DRIVE, before.ends, quote=before.quote)
+        if moment == ended or (moment is None and not waits):
+            return ended
+        between = Doing(before.actor, st.Verb.STAND if stands else st.Verb.DRIVE, ended, quote=before.quote)
         between.ends = self.new_moment() if moment is None else moment
         self.doings.append(between)
         does = "stands still" if stands else "drives on"

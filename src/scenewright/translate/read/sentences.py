@@ -6,24 +6,28 @@ error that quotes the words that nothing could be made of.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import zip_longest
+from typing import NoReturn
 
 from scenewright.errors import Place as Where
-from scenewright.errors import TranslationError
+from scenewright.errors import Span, TranslationError
 from scenewright.program.types import EGO
 from scenewright.translate import story as st
+from scenewright.translate.compile import DRIVEN, refused_deed, refused_kind
+from scenewright.translate.phrases import DOES
 from scenewright.translate.read.chunks import Chunk, sentences
-from scenewright.translate.read.clauses import PEOPLE, Clause, agree, is_upper
+from scenewright.translate.read.clauses import OPERATORS, PEOPLE, Clause, agree, is_upper
 from scenewright.translate.read.items import Segment, items_of, parted, segments_of
-from scenewright.translate.read.narrative import COURTESIES, Doing, Narrative, steady, take_labels
+from scenewright.translate.read.narrative import COURTESIES, REFRAINS, Doing, Narrative, steady, take_labels
 
 _ORDERS = ("before", "after", "no later than")
 _HOW: dict[str, st.How] = {"always": "always", "never": "never", "at some time": "at some time"}
-_LEADS = ("then", "then left", "then right", "at once", "later", "meanwhile", "start")
-_SAYS_NOTHING = {"unknown", "comma", "harmless", "be", "joint", "quality", "name", "mood", "other"}
-_COMMENT = {*_SAYS_NOTHING, "comment", "actor", "relative", "yields", "insists", "order", "side", "link"}
+_LEADS = ("then", "then left", "then right", "at once", "later", "meanwhile", "start", "same time")
+_CHANGES = (st.Verb.BRAKE, st.Verb.SPEED_UP, "stop")  # deeds that nobody is at from the start, unless that is said
+_SAYS_NOTHING = {"unknown", "comma", "harmless", "again", "be", "joint", "quality", "name", "mood", "other"}
+_COMMENT = {*_SAYS_NOTHING, "comment", "actor", "relative", "yields", "insists", "refrains", "order", "side", "link"}
 
 
 def read(text: str, answers: Mapping[str, str] | None = None, name: str = "description") -> st.Story:
@@ -37,8 +41,8 @@ def read(text: str, answers: Mapping[str, str] | None = None, name: str = "descr
         if kinds <= _SAYS_NOTHING or ("comment" in kinds and kinds <= _COMMENT and first == "ego"):
             narrative.asides.append(narrative.quote)
             continue
-        chunks = [chunk for chunk in chunks if chunk.kind != "harmless"]
-        sentence = _Sentence(narrative, chunks, narrative.pending)
+        chunks = [chunk for chunk in chunks if chunk.kind not in ("harmless", "again")]
+        sentence = _Sentence(narrative, chunks, narrative.pending, {"again"} & kinds)
         narrative.pending = None
         try:
             sentence.read()
@@ -46,9 +50,16 @@ def read(text: str, answers: Mapping[str, str] | None = None, name: str = "descr
         except TranslationError as error:
             if sentence.is_open:
                 continue  # it is asked about first
+            if (unknown := _unknown_to_programs(chunks)) is not None:
+                error = unknown
             error.place = error.place or Where(name, text, narrative.quote.span)
-            raise
-    return narrative.story()
+            raise error from None
+    try:
+        return narrative.story()
+    except TranslationError as error:
+        at = text.find(error.found or text)
+        error.place = error.place or Where(name, text, Span(at, at + len(error.found or text)))
+        raise
 
 
 @dataclass(slots=True)
@@ -57,6 +68,8 @@ class _Sentence:
     chunks: list[Chunk]
     pending: int | None  # a moment that was told just before, and nobody did anything at it
     leads: set[str] = field(default_factory=set)
+    delay: tuple[st.Operator, st.Amount] | None = None  # after what was told last: "2 s later"
+    moment: int | None = None  # that it tells
     turned: str = ""
     is_open: bool = False  # a word in it must be asked about first
 
@@ -72,10 +85,13 @@ class _Sentence:
             self._take_leads()
             known, is_later = len(self.story.moments), bool(self.leads & {"then", "later"})
             self._cut()
+            if self.delay is not None:
+                self.story.refuse("it is not clear what is so much later", fix="say who does what then")
             self.story.later |= {*range(known, len(self.story.moments))} if is_later else set()
 
     def _take_leads(self) -> None:
         """Take the words that say when a sentence is, at its front or behind its subject: ``then``, ``initially``."""
+        self._take_delay()
         joined = any(chunk.value == "if" for chunk in self.chunks)  # its "then" is another
         kept: list[Chunk] = []
         for chunk in self.chunks:
@@ -90,11 +106,29 @@ class _Sentence:
                 kept.append(chunk)
         self.chunks = kept
 
+    def _take_delay(self) -> None:
+        """Take "2 s later", "2 s after that" and "after 2 s" at the front."""
+        chunks = [each for each in self.chunks[:4] if each.kind != "comma"]
+        kinds = [(each.kind, each.value) for each in chunks] + [("", "")] * 3
+        bound = OPERATORS.get(kinds[0][1]) if kinds[0][0] == "bound" else None
+        at = 1 if bound else 0
+        if kinds[at][0] == "amount" and kinds[at + 1] in (("link", "later"), ("link", "then")):
+            amount, taken = chunks[at].amount, [*chunks[: at + 2]]
+        elif kinds[0] == ("side", "after") and kinds[1][0] == "amount" and kinds[2][0] in PEOPLE:
+            amount, taken = chunks[1].amount, chunks[:2]
+        else:
+            return
+        if amount is not None and amount.dimension == "time":
+            self.delay = (bound or "==", amount)
+            self.leads.add("then")
+            self.chunks = [each for each in self.chunks if each not in taken]
+
     def _cut(self) -> None:
         """Cut the sentence into what happens, the moment at which it does, and the rest."""
         story, (main, *rest) = self.story, segments_of(self.chunks, bool(self.leads))
         if not main.chunks and rest and rest[0].link in ("before", "after"):
             rest[0].chunks, main.chunks = parted(rest[0].chunks)  # "2 s after ..., the hero brakes"
+            rest[0].is_first = True
         later = next((each for each in rest if each.link == "when"), None)
         rest = [each for each in rest if each is not later]
         when = None
@@ -126,14 +160,21 @@ class _Sentence:
         if first.deed and len(items) > 1:  # "it brakes to a stop, waits for 3 s and drives on"
             for item, following in zip_longest(items, items[1:]):
                 self._main([item], when, [] if following else rest)
-                if following and following.subject == item.subject:
+                if following is None:
+                    continue
+                if "same time" in following.notes and following.subject == item.subject:
+                    story.refuse("two deeds at one time are told of one")
+                follows = following.subject == item.subject and item.deed is not None
+                if follows or "then" in following.notes:
                     self.leads, when, self.pending = {"then"}, None, None
+                elif "same time" in following.notes and when is None:
+                    self.leads = {"same time"}
         elif first.deed and not (known and tells_time):
             self._deed(first, when, rest)
         elif when is not None:
             if first.subject == EGO and first.is_event and not timed:
                 story.refuse("the ego is driven by the policy under test", fix="say what the others do then")
-            moment = story.moment(when)
+            moment = self._moment(when)
             if (story.moments[moment].time is None or not items) and not story.is_owned(moment):
                 story.settle()
                 story.pending, story.awaits = moment, None if items or rest else story.quote
@@ -151,6 +192,12 @@ class _Sentence:
         else:
             self._facts(items)
 
+    def _moment(self, when: list[Clause]) -> int:
+        """Return the moment that a sentence tells: one, for all that is said of it."""
+        if self.moment is None:
+            self.moment = self.story.moment(when)
+        return self.moment
+
     def _acts(self, items: list[Clause], happens: bool) -> list[Clause]:
         """Return what is done and what is so: a turn, a speed or an event is a deed where it `happens`.
 
@@ -161,7 +208,9 @@ class _Sentence:
         acts = any(each.deed is not None for each in items)
         for item in items:
             self.story.courtesies += [(item.subject, each, item.quote) for each in item.flags & COURTESIES]
-            item.flags -= COURTESIES
+            refrains = item.flags & REFRAINS
+            self.story.refrains += [(item.subject, each, item.quote) for each in sorted(refrains)]
+            item.flags -= COURTESIES | REFRAINS
             is_hero = happens and item.deed is None and item.subject not in (None, EGO)
             meant = "wanted" in item.notes or ("relative" in item.notes and acts)
             turns = item.facts.get("turn", "straight") != "straight"
@@ -170,6 +219,10 @@ class _Sentence:
                 item.facts, item.deed = {}, "turn"
             elif is_hero and "first" in item.flags and not item.says_more_than("flags"):
                 item.flags, item.deed = item.flags - {"first"}, "go first"
+            elif is_hero and "kept" in item.flags and not item.says_more_than("flags"):
+                item.deed = st.Verb.DRIVE  # "when ..., it keeps its speed"
+            elif is_hero and refrains and all(other is item or not other.says_more_than() for other in items):
+                item.deed = st.Verb.DRIVE  # "when ..., it does not brake"
             elif item.phase == "begins" and item.deed is None and item.measures:
                 item.phase = None
                 if is_hero and item.measures[0].quantity is st.Quantity.SPEED:  # "starts driving at 8 m/s"
@@ -192,6 +245,8 @@ class _Sentence:
             elif item.says_more_than():
                 if is_hero and item.is_event:
                     item.deed = st.Verb.DRIVE
+                    if "turns" in item.quote.text.lower().split():  # "then it turns"
+                        item.measures, item.deed = [], "turn"
                 found.append(item)
         return found
 
@@ -222,10 +277,76 @@ class _Sentence:
             story.doings[-1].throughout += measures
         elif "later" in self.leads:
             story.new_moment(conditions)
+        elif "same time" in self.leads and (at := self._same_time()) is not None:
+            story.add(at, conditions)
+            story.pending = self.pending
         elif "start" in self.leads or not (story.doings or self.pending is not None or self.leads - {"meanwhile"}):
+            if "start" not in self.leads and any("event" in each.notes and each.measures for each in items):
+                self._when_unclear()  # "the hero crosses the stop line at 5 m/s"
             story.add(st.START, conditions)
         else:
-            story.refuse("it is not clear when this is so", fix="begin it with 'At the start,' or 'Later,'")
+            self._when_unclear()
+
+    def _when_unclear(self) -> NoReturn:
+        fix = "begin it with 'At the start,' or 'Later,', or say it of a deed: 'drives on until ...'"
+        self.story.refuse("it is not clear when this is so", fix=fix)
+
+    def _same_time(self) -> int | None:
+        """Return the moment of what was told last: the one that waits for what happens, or when a deed began."""
+        if self.pending is not None:
+            return self.pending
+        return self.story.doings[-1].begins if self.story.doings else None
+
+    def _moment_of(self, clause: Clause, again: Doing | None, is_tied: bool) -> int | None:
+        """Return the moment at which a deed begins as the words in front of it say; None where it follows its own last.
+
+        Who acts after somebody else did, and is not tied to that by a word, would be at it from the start.
+        """
+        story = self.story
+        if self.delay is None and (self.pending is not None or again is not None):
+            return None if again is not None else self.pending
+        last = story.doings[-1] if story.doings else None
+        if "same time" in self.leads:
+            if last is None:
+                story.refuse("it is not clear at the same time as what", fix="begin it with 'When ...,'")
+            return last.begins
+        delay, self.delay = self.delay, None
+        acts = any(each.actor == clause.subject for each in story.doings)
+        is_new = last is not None and not acts and not is_tied
+        if delay is not None or ("then" in self.leads and is_new):
+            after = self.pending if self.pending is not None else self._after(last, clause, delay is not None)
+            op, margin = delay or (">", None)
+            moment = story.new_moment()
+            story.orders.append(st.Order(after, moment, op, margin, story.quote))
+            return moment
+        if is_new and clause.deed in _CHANGES and "start" not in self.leads:
+            fix = "begin it with 'When ...,', 'At the same time,' or 'Then'"
+            story.refuse("it is not clear when this is done", fix=fix)
+        return None
+
+    def _after(self, last: Doing | None, clause: Clause, is_delayed: bool) -> int:
+        """Return the moment that "then" and "2 s later" count from: of a deed with an end either that or its beginning."""
+        story = self.story
+        if last is None:
+            return st.START
+        if last.ends is None and not last.rests:
+            return last.begins
+        if last.actor == clause.subject and not is_delayed:
+            return story.finish(last)
+        name, (_, begin, finish) = story.actor(last.actor).name, DOES.get(last.verb, ("", last.verb, last.verb))
+        ways = [f"after {name} finishes {finish}", f"after {name} begins to {begin}"]
+        # How much later somebody else reacts is told from what it may see first.
+        usual = ways[is_delayed and last.actor != clause.subject]
+        asked = f"When is this: {story.quote.text}"
+        told = story.ask(f"then {story.quote.start}", asked, ways, ways.index(usual), story.quote)
+        return story.finish(last) if told == ways[0] else last.begins
+
+    def _told_before(self, clause: Clause, when: list[Clause] | None) -> Doing | None:
+        """Return the deed that a clause tells once more: nobody brakes, then brakes, unless a word says so."""
+        own = next((each for each in reversed(self.story.doings) if each.actor == clause.subject), None)
+        verb = st.Verb.BRAKE if clause.deed == "stop" else clause.deed
+        same = own is not None and own.verb == verb and verb in _CHANGES and clause.ordinal == 0
+        return own if same and when is None and self.pending is None and not self.leads else None
 
     def _deed(self, clause: Clause, when: list[Clause] | None, rest: list[Segment]) -> None:
         story = self.story
@@ -241,8 +362,10 @@ class _Sentence:
         if self.turned:  # "after turning left, it ..."
             story.tell_way(clause.subject, {"turn": self.turned})
         story.awaits = None if when is None and self.pending is not None else story.awaits
-        moment = self.pending if when is None else story.moment(when)
+        again = self._told_before(clause, when)
         begins, held, ends = self._shares(clause)
+        is_tied = bool(begins) or any(each.link in _ORDERS for each in rest)
+        moment = self._moment_of(clause, again, is_tied) if when is None else self._moment(when)
         if "kept" in clause.flags and not held:  # "continues at a constant speed"
             if clause.deed != st.Verb.DRIVE:
                 story.refuse("it is not clear what is kept here")
@@ -251,6 +374,9 @@ class _Sentence:
         if clause.deed == "turn":
             start, told = story.moments[st.START].conditions, () if moment is None else story.moments[moment].conditions
             told = (*told, *start) if st.standstill(clause.subject) in start else told  # it turns from where it stands
+            stood = next((each for each in reversed(story.doings) if each.actor == clause.subject), None)
+            since = () if stood is None else (stood.begins, stood.ends) if stood.verb == st.Verb.STAND else (stood.ends,)
+            told = (*told, *(each for at in since if at is not None for each in story.moments[at].conditions))
             # Where it is told where it is then, it turns later.
             if not any(isinstance(each, st.Measure) and each.actor == clause.subject and each.place for each in told):
                 begins.append(self._at(clause.subject, "turn_start"))
@@ -258,12 +384,16 @@ class _Sentence:
         elif clause.deed == "go first":
             ends.append(self._at(clause.subject, "conflict_point"))
         is_event = "event" in clause.notes
-        if drives_on or any(not is_event and (each.link == "after" or (each.margin and not ends)) for each in rest):
+        fronts = [each for each in rest if not is_event and (each.link == "after" or each.is_first
+                                                             or (each.margin and not ends))]  # fmt: skip
+        if drives_on or fronts:
             self.leads.add("then")
         verb = {"stop": st.Verb.BRAKE, "turn": st.Verb.DRIVE, "go first": st.Verb.DRIVE}.get(clause.deed, clause.deed)
-        doing = story.begin(clause.subject, verb, moment, self.leads)
+        doing = again or story.begin(clause.subject, verb, moment, self.leads)
         story.subject = clause.subject
-        story.add(doing.begins, begins)
+        if begins:
+            agree(_measures((*story.moments[doing.begins].conditions, *begins)), clause.quote)
+            story.add(doing.begins, begins)
         if verb == st.Verb.DRIVE and story.is_at_rest(doing):  # no speed from rest on is held: it is reached
             if "kept" in clause.flags:
                 story.refuse("who stands has no speed to keep", clause.quote, "say until when it speeds up")
@@ -271,19 +401,25 @@ class _Sentence:
             first = f"{story.actor(doing.actor).name} stands when it sets off: it comes to its speed by the end of that"
             story.assumptions += [first] * bool(reached)
             held, doing.reached = [each for each in held if each not in reached], reached
-        doing.throughout += dict.fromkeys((*held, *clause.rates))
+        doing.throughout += [each for each in dict.fromkeys((*held, *clause.rates)) if each not in doing.throughout]
+        if again is not None:
+            agree(doing.throughout, clause.quote)
         rests = clause.deed == "stop" or "standstill" in clause.flags
-        doing.lasts = [] if rests else [*dict.fromkeys(clause.times.get("for", ()))]
+        doing.lasts += [] if rests else dict.fromkeys(clause.times.get("for", ()))
         if "while" in clause.flags and ends:
             story.refuse("it is not clear when this ends")
         self._end(doing, clause, ends, next((each for each in rest if each.link == "until"), None))
         if clause.deed == "go first":  # it passes before the ego does
             passes = story.event(Clause(story.quote, EGO, measures=[self._at(EGO, "conflict_point")]))
             story.orders.append(st.Order(doing.ends or st.START, passes, ">", None, story.quote))
+        until, at_end = False, is_event or (again is not None and clause.deed == "stop")
         for each in rest:
-            early = (each.link == "after" and not is_event) or not ends or doing.ends is None
-            if each.link != "until":
-                self._orders(doing.begins if early else doing.ends or st.START, [each])
+            if each.link == "until":  # "... until it passes the conflict point 1 s before the ego"
+                until = True
+                continue
+            late = at_end or until or not (each.is_first or each.link == "after" or not ends)
+            late = late and (doing.ends is not None or doing.rests)
+            self._orders(story.finish(doing) if late else doing.begins, [each])
         if rests and "for" in clause.times:
             story.refuse("it is not clear what lasts so long")
 
@@ -310,6 +446,8 @@ class _Sentence:
 
     def _end(self, doing: Doing, clause: Clause, ends: Sequence[st.Condition], until: Segment | None) -> None:
         story, told = self.story, [*ends, *doing.reached]
+        if until is not None and doing.ends is not None:
+            story.refuse("two ends of one deed are told", clause.quote)
         if until is not None:
             story.doer = doing.actor
             items = items_of(story, until.chunks)
@@ -317,12 +455,13 @@ class _Sentence:
             doing.ends = story.moment(items, doing.actor)
             told += story.moments[doing.ends].conditions if told else ()  # "speeds up to 5 m/s until it is at 6 m/s"
             story.add(doing.ends, ends)
+        elif ends and doing.ends is not None:  # it is told once more
+            told += story.moments[doing.ends].conditions
+            story.add(doing.ends, ends)
         elif ends:
             doing.ends = story.new_moment(ends)
-        elif doing.verb == st.Verb.BRAKE and "while" not in clause.flags and not doing.lasts:
-            doing.ends = story.new_moment([st.standstill(doing.actor)])
-            story.assumptions.append(f"{story.actor(doing.actor).name} brakes to a standstill")
-        agree((each for each in told if isinstance(each, st.Measure)), clause.quote)
+        doing.rests = doing.verb == st.Verb.BRAKE and "while" not in clause.flags and not doing.lasts
+        agree(_measures(told), clause.quote)
 
     def _event_of(self, chunks: list[Chunk]) -> int:
         """Return the moment of the one event that chunks tell."""
@@ -376,3 +515,17 @@ class _Sentence:
             elif chunk.kind not in ("comma", "nothing"):
                 events[-1].append(chunk)
         self.story.ego = tuple(self._event_of(chunks) for chunks in events if chunks)
+
+
+def _unknown_to_programs(chunks: Sequence[Chunk]) -> TranslationError | None:
+    """Return the error that names what no program can say: where a sentence has that, it is why it is not read."""
+    for chunk in chunks:
+        if chunk.kind == "actor" and chunk.value not in (*DRIVEN, "ego", "hero"):
+            return refused_kind(chunk.value, chunk.quote)
+        if chunk.kind == "deed" and chunk.value not in (*st.Verb, "stop"):
+            return refused_deed(chunk.text.lower(), chunk.quote)
+    return None
+
+
+def _measures(conditions: Iterable[st.Condition]) -> Iterator[st.Measure]:
+    return (each for each in conditions if isinstance(each, st.Measure))
