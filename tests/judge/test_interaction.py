@@ -131,9 +131,7 @@ def test_what_is_done_before_a_trigger_is_judged_too() -> None:
 
 @pytest.mark.parametrize(("pieces", "missed"), [([(5.0, 0.0), (3.0, 2.0)], False), ([(7.0, 0.0), (3.0, 2.0)], True)])
 def test_who_is_to_set_off_at_its_trigger_does_so_then(pieces: list[tuple[float, float]], missed: bool) -> None:
-    play = Play(
-        text("[t0, stop, t1, go, t2]", AT_5_S), Motion(0.0, 10.0, []), Motion(60.0, 0.0, pieces), 5.0, CROSSING
-    )
+    play = Play(text("[t0, stop, t1, go, t2]", AT_5_S), Motion(0.0, 10.0, []), Motion(60.0, 0.0, pieces), 5.0, CROSSING)
     assert ("hero_goes_again" in failed(judge(play.case()), LOOSE)) is missed
 
 

@@ -255,7 +255,7 @@ def test_a_place_of_its_own_tells_a_moment_before_how_far_another_is(swapped: bo
         ("stop", [(2.0, 0.0), (2.0, 2.0), (2.0, -2.0)], False),
     ],
 )
-def test_who_waits_before_may_be_told_to_stand_later(after: str, pieces: list[tuple[float, float]], holds: bool) -> None:
+def test_who_waits_before_may_be_told_to_stand(after: str, pieces: list[tuple[float, float]], holds: bool) -> None:
     """The ego is 10 m before its line at 5 s; 1.5 s after that the hero stands, or begins to."""
     said = "A0x(t1) == stop_line - 10\nA1(t1) - A0(t1) == 1.5\nA1v(t1) == 0"
     play = Play(
@@ -271,7 +271,7 @@ def test_who_waits_before_may_be_told_to_stand_later(after: str, pieces: list[tu
 
 
 def test_a_speed_that_is_not_quite_met_is_not_looked_for_in_a_later_piece() -> None:
-    """It brakes to 3.01 m/s, speeds up to 8 m/s and brakes to a stand: 3 m/s are had again only while it brakes then."""
+    """It brakes to 3.01 m/s, speeds up to 8 m/s and brakes to a stand: 3 m/s are had only while it brakes then."""
     said = (
         "A0(t1) == A1(t1)\nA0x(t1) == stop_line - 20\nA1x(t1) == conflict_point - 50\nA1v(t2) == 3\nA1v(t3) == 8\n"
         "A1v(t4) == 0"

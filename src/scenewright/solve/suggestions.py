@@ -20,8 +20,8 @@ from scenewright.solve.tolerances import compared_dimension
 from scenewright.translate.lines import in_words
 from scenewright.units import SI_SYMBOL, Dimension, decimal_fraction, format_fraction
 
-# For one value, and for all, in the seconds of a search, which counts its work: a busy machine proposes the same. Of the
-# values that do half are seen to with one first guess, and one in thirty takes more than six (180 of them). Chosen.
+# For one value, and for all, in the seconds of a search, which counts its work: a busy machine proposes the same. Of
+# 160 values that do half are seen to with one first guess, and one in thirty takes more than six. Chosen.
 _GUESSES, _ALL_S = 12, 3.0
 _BISECTIONS = 10
 _SUGGESTIONS = 4

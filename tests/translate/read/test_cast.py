@@ -65,8 +65,8 @@ def test_who_cannot_be_told_apart_is_refused(text: str) -> None:
 
 
 def test_a_second_one_is_somebody_new_and_the_first_one_is_the_other() -> None:
-    text = "The ego drives west. A car drives west 40 m ahead of the ego. A second car drives west 30 m ahead of the first "
-    text += "car. When the ego is 25 m behind the first car, the second car brakes."
+    text = "The ego drives west. A car drives west 40 m ahead of the ego. A second car drives west 30 m ahead of the "
+    text += "first car. When the ego is 25 m behind the first car, the second car brakes."
     story = understand(text).story
     assert [actor.name for actor in story.actors] == ["ego", "car", "second car"]
     program = understand(text).program

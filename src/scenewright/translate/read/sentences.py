@@ -50,10 +50,9 @@ def read(text: str, answers: Mapping[str, str] | None = None, name: str = "descr
         except TranslationError as error:
             if sentence.is_open:
                 continue  # it is asked about first
-            if (unknown := _unknown_to_programs(chunks)) is not None:
-                error = unknown
-            error.place = error.place or Where(name, text, narrative.quote.span)
-            raise error from None
+            told = _unknown_to_programs(chunks) or error
+            told.place = told.place or Where(name, text, narrative.quote.span)
+            raise told from None
     try:
         return narrative.story()
     except TranslationError as error:
@@ -325,7 +324,7 @@ class _Sentence:
         return None
 
     def _after(self, last: Doing | None, clause: Clause, is_delayed: bool) -> int:
-        """Return the moment that "then" and "2 s later" count from: of a deed with an end either that or its beginning."""
+        """Return the moment that "then" and "2 s later" count from: the end of a deed, or its beginning."""
         story = self.story
         if last is None:
             return st.START
@@ -375,7 +374,7 @@ class _Sentence:
             start, told = story.moments[st.START].conditions, () if moment is None else story.moments[moment].conditions
             told = (*told, *start) if st.standstill(clause.subject) in start else told  # it turns from where it stands
             stood = next((each for each in reversed(story.doings) if each.actor == clause.subject), None)
-            since = () if stood is None else (stood.begins, stood.ends) if stood.verb == st.Verb.STAND else (stood.ends,)
+            since = () if stood is None else (stood.begins, stood.ends)[stood.verb != st.Verb.STAND :]
             told = (*told, *(each for at in since if at is not None for each in story.moments[at].conditions))
             # Where it is told where it is then, it turns later.
             if not any(isinstance(each, st.Measure) and each.actor == clause.subject and each.place for each in told):
