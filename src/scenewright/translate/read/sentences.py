@@ -16,16 +16,14 @@ from scenewright.errors import Span, TranslationError
 from scenewright.program.types import EGO
 from scenewright.translate import story as st
 from scenewright.translate.compile import DRIVEN, refused_deed, refused_kind
-from scenewright.translate.phrases import DOES
 from scenewright.translate.read.chunks import Chunk, sentences
-from scenewright.translate.read.clauses import OPERATORS, PEOPLE, Clause, agree, is_upper
+from scenewright.translate.read.clauses import Clause, agree, is_upper
 from scenewright.translate.read.items import Segment, items_of, parted, segments_of
+from scenewright.translate.read.leads import leads_of, moment_led_to, same_time, told_before
 from scenewright.translate.read.narrative import COURTESIES, REFRAINS, Doing, Narrative, steady, take_labels
 
 _ORDERS = ("before", "after", "no later than")
 _HOW: dict[str, st.How] = {"always": "always", "never": "never", "at some time": "at some time"}
-_LEADS = ("then", "then left", "then right", "at once", "later", "meanwhile", "start", "same time")
-_CHANGES = (st.Verb.BRAKE, st.Verb.SPEED_UP, "stop")  # deeds that nobody is at from the start, unless that is said
 _SAYS_NOTHING = {"unknown", "comma", "harmless", "again", "be", "joint", "quality", "name", "mood", "other"}
 _COMMENT = {*_SAYS_NOTHING, "comment", "actor", "relative", "yields", "insists", "refrains", "order", "side", "link"}
 
@@ -81,46 +79,14 @@ class _Sentence:
         elif how is not None:
             self._hold(how)
         elif self.chunks:
-            self._take_leads()
+            said = leads_of(self.story, self.chunks)
+            self.chunks, self.turned, self.delay = said.chunks, said.turned, said.delay
+            self.leads |= said.words
             known, is_later = len(self.story.moments), bool(self.leads & {"then", "later"})
             self._cut()
             if self.delay is not None:
                 self.story.refuse("it is not clear what is so much later", fix="say who does what then")
             self.story.later |= {*range(known, len(self.story.moments))} if is_later else set()
-
-    def _take_leads(self) -> None:
-        """Take the words that say when a sentence is, at its front or behind its subject: ``then``, ``initially``."""
-        self._take_delay()
-        joined = any(chunk.value == "if" for chunk in self.chunks)  # its "then" is another
-        kept: list[Chunk] = []
-        for chunk in self.chunks:
-            free = not kept or (not joined and kept[-1].kind in ("be", "mood", *PEOPLE) and chunk.value != "start")
-            if chunk.kind == "link" and chunk.value in _LEADS and free:
-                lead, _, turned = chunk.value.partition("then ")
-                if turned and self.turned not in ("", turned):
-                    self.story.refuse("two turns are told at once", chunk.quote)
-                self.turned = self.turned or turned
-                self.leads.add(lead or "then")
-            elif kept or chunk.kind != "comma":
-                kept.append(chunk)
-        self.chunks = kept
-
-    def _take_delay(self) -> None:
-        """Take "2 s later", "2 s after that" and "after 2 s" at the front."""
-        chunks = [each for each in self.chunks[:4] if each.kind != "comma"]
-        kinds = [(each.kind, each.value) for each in chunks] + [("", "")] * 3
-        bound = OPERATORS.get(kinds[0][1]) if kinds[0][0] == "bound" else None
-        at = 1 if bound else 0
-        if kinds[at][0] == "amount" and kinds[at + 1] in (("link", "later"), ("link", "then")):
-            amount, taken = chunks[at].amount, [*chunks[: at + 2]]
-        elif kinds[0] == ("side", "after") and kinds[1][0] == "amount" and kinds[2][0] in PEOPLE:
-            amount, taken = chunks[1].amount, chunks[:2]
-        else:
-            return
-        if amount is not None and amount.dimension == "time":
-            self.delay = (bound or "==", amount)
-            self.leads.add("then")
-            self.chunks = [each for each in self.chunks if each not in taken]
 
     def _cut(self) -> None:
         """Cut the sentence into what happens, the moment at which it does, and the rest."""
@@ -276,7 +242,7 @@ class _Sentence:
             story.doings[-1].throughout += measures
         elif "later" in self.leads:
             story.new_moment(conditions)
-        elif "same time" in self.leads and (at := self._same_time()) is not None:
+        elif "same time" in self.leads and (at := same_time(story, self.pending)) is not None:
             story.add(at, conditions)
             story.pending = self.pending
         elif "start" in self.leads or not (story.doings or self.pending is not None or self.leads - {"meanwhile"}):
@@ -289,63 +255,6 @@ class _Sentence:
     def _when_unclear(self) -> NoReturn:
         fix = "begin it with 'At the start,' or 'Later,', or say it of a deed: 'drives on until ...'"
         self.story.refuse("it is not clear when this is so", fix=fix)
-
-    def _same_time(self) -> int | None:
-        """Return the moment of what was told last: the one that waits for what happens, or when a deed began."""
-        if self.pending is not None:
-            return self.pending
-        return self.story.doings[-1].begins if self.story.doings else None
-
-    def _moment_of(self, clause: Clause, again: Doing | None, is_tied: bool) -> int | None:
-        """Return the moment at which a deed begins as the words in front of it say; None where it follows its own last.
-
-        Who acts after somebody else did, and is not tied to that by a word, would be at it from the start.
-        """
-        story = self.story
-        if self.delay is None and (self.pending is not None or again is not None):
-            return None if again is not None else self.pending
-        last = story.doings[-1] if story.doings else None
-        if "same time" in self.leads:
-            if last is None:
-                story.refuse("it is not clear at the same time as what", fix="begin it with 'When ...,'")
-            return last.begins
-        delay, self.delay = self.delay, None
-        acts = any(each.actor == clause.subject for each in story.doings)
-        is_new = last is not None and not acts and not is_tied
-        if delay is not None or ("then" in self.leads and is_new):
-            after = self.pending if self.pending is not None else self._after(last, clause, delay is not None)
-            op, margin = delay or (">", None)
-            moment = story.new_moment()
-            story.orders.append(st.Order(after, moment, op, margin, story.quote))
-            return moment
-        if is_new and clause.deed in _CHANGES and "start" not in self.leads:
-            fix = "begin it with 'When ...,', 'At the same time,' or 'Then'"
-            story.refuse("it is not clear when this is done", fix=fix)
-        return None
-
-    def _after(self, last: Doing | None, clause: Clause, is_delayed: bool) -> int:
-        """Return the moment that "then" and "2 s later" count from: the end of a deed, or its beginning."""
-        story = self.story
-        if last is None:
-            return st.START
-        if last.ends is None and not last.rests:
-            return last.begins
-        if last.actor == clause.subject and not is_delayed:
-            return story.finish(last)
-        name, (_, begin, finish) = story.actor(last.actor).name, DOES.get(last.verb, ("", last.verb, last.verb))
-        ways = [f"after {name} finishes {finish}", f"after {name} begins to {begin}"]
-        # How much later somebody else reacts is told from what it may see first.
-        usual = ways[is_delayed and last.actor != clause.subject]
-        asked = f"When is this: {story.quote.text}"
-        told = story.ask(f"then {story.quote.start}", asked, ways, ways.index(usual), story.quote)
-        return story.finish(last) if told == ways[0] else last.begins
-
-    def _told_before(self, clause: Clause, when: list[Clause] | None) -> Doing | None:
-        """Return the deed that a clause tells once more: nobody brakes, then brakes, unless a word says so."""
-        own = next((each for each in reversed(self.story.doings) if each.actor == clause.subject), None)
-        verb = st.Verb.BRAKE if clause.deed == "stop" else clause.deed
-        same = own is not None and own.verb == verb and verb in _CHANGES and clause.ordinal == 0
-        return own if same and when is None and self.pending is None and not self.leads else None
 
     def _deed(self, clause: Clause, when: list[Clause] | None, rest: list[Segment]) -> None:
         story = self.story
@@ -361,10 +270,17 @@ class _Sentence:
         if self.turned:  # "after turning left, it ..."
             story.tell_way(clause.subject, {"turn": self.turned})
         story.awaits = None if when is None and self.pending is not None else story.awaits
-        again = self._told_before(clause, when)
+        again = None if when is not None or self.pending is not None or self.leads else told_before(story, clause)
         begins, held, ends = self._shares(clause)
         is_tied = bool(begins) or any(each.link in _ORDERS for each in rest)
-        moment = self._moment_of(clause, again, is_tied) if when is None else self._moment(when)
+        moment: int | None
+        if when is not None:
+            moment = self._moment(when)
+        elif again is not None or (self.delay is None and self.pending is not None):
+            moment = self.pending
+        else:
+            moment = moment_led_to(story, clause, self.leads, self.delay, self.pending, is_tied)
+            self.delay = None
         if "kept" in clause.flags and not held:  # "continues at a constant speed"
             if clause.deed != st.Verb.DRIVE:
                 story.refuse("it is not clear what is kept here")
