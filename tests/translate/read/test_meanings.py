@@ -240,6 +240,8 @@ def test_a_deed_told_twice_that_contradicts_itself_is_refused() -> None:
     reading = reading_of(f"{MEETS}the hero brakes to a stop 8 m before the conflict point. It brakes to 5 m/s.")
     assert "two amounts for one thing" in str(reading.told)
     assert pieces(reading_of(f"{MEETS}the hero brakes to 5 m/s. Then it brakes to a stop.")) == "go dec dec"
+    for said in ("It brakes again to a stop.", "Later it brakes to a stop."):
+        assert pieces(reading_of(f"{MEETS}the hero brakes to 5 m/s. {said}")) == "go dec go dec", said
 
 
 def test_what_follows_an_end_is_said_of_the_end() -> None:

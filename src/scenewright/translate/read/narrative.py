@@ -284,6 +284,7 @@ class Narrative(Cast):
         stands = st.standstill(before.actor) in self.moments[ended].conditions
         sets_off = verb in (st.Verb.DRIVE, st.Verb.SPEED_UP) and before.verb != st.Verb.STAND
         waits = stands and sets_off and "at once" not in leads
+        waits |= verb == before.verb and bool(leads & {"again", "later"})  # "it brakes to 5 m/s. Later it brakes ..."
         if moment == ended or (moment is None and not waits):
             return ended
         between = Doing(before.actor, st.Verb.STAND if stands else st.Verb.DRIVE, ended, quote=before.quote)
