@@ -72,3 +72,10 @@ def test_a_second_one_is_somebody_new_and_the_first_one_is_the_other() -> None:
     program = understand(text).program
     formulas = {print_expression(each.formula) for each in program.constraints}
     assert {"gap(A1, A2, t0) == 30", "gap(A0, A1, t1) == 25", "A0(t1) == A2(t1)"} <= formulas
+
+
+def test_the_second_one_is_not_the_first_though_nobody_calls_that_so() -> None:
+    text = "The ego drives west. An oncoming car turns left. A second car turns right out of the driveway. When the "
+    text += "ego is 40 m before the conflict point, the second car brakes."
+    program = understand(text).program
+    assert [" ".join(actor.sketch.pieces) for actor in program.heroes] == ["go", "go dec"]

@@ -123,7 +123,9 @@ class Cast:
         named = chunk.value in (actor.name, *self.known_by.get(actor.id, ()))
         named |= actor.kind == kind and chunk.value != "hero"
         strange = words - self.known_by.get(actor.id, set())
-        return (named or (general and not chunk.is_new)) and not (strange and self.known_by.get(actor.id))
+        return (named or (general and not chunk.is_new)) and not (
+            strange and (self.known_by.get(actor.id) or strange & _FURTHER)
+        )
 
     def _free_name(self, name: str, words: set[str]) -> str:
         """Return a name that nobody has: that of its kind, with what describes it, with a number."""
