@@ -6,20 +6,20 @@ speeds alone, the same for every method. Nothing here decides whether a run is a
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from scenewright.program.expressions import Compare, Knot, Number, State
+from scenewright.program.structure import standstills
 from scenewright.program.types import PieceKind
 from scenewright.solve.limits import limits_on
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-    from scenewright.program.types import Actor, Program
+    from scenewright.program.types import Actor
     from scenewright.roads.grounding import Scene
     from scenewright.trace.model import ActorTrace, Trace
 
@@ -71,9 +71,8 @@ def approach_of(scene: Scene, trace: Trace, facts: Mapping[str, Any]) -> Approac
             times = facts["knot_times_s"][hero.name].values()
             next_s = min([trace.duration_s, *(time_s for time_s in times if time_s > trigger_s)])
             count = sum(time_s < trigger_s for time_s in times)
-            may_stand = PieceKind.STOP in hero.sketch.pieces[:count] or _is_to_stand(
-                scene.program, hero.id, hero.sketch.knots[: count + 1]
-            )
+            stands = standstills(scene.program, hero.id) & {*hero.sketch.knots[: count + 1]}
+            may_stand = PieceKind.STOP in hero.sketch.pieces[:count] or bool(stands)
             found.append(_of_hero(scene, hero, trace.actors[hero.name], trigger_s, next_s, may_stand=may_stand))
     paces = [each.pace for each in found if each.pace is not None]
     return Approach(
@@ -83,17 +82,6 @@ def approach_of(scene: Scene, trace: Trace, facts: Mapping[str, Any]) -> Approac
         [accel for each in found for accel in each.accels_mpss],
         min(paces, default=None),
     )
-
-
-def _is_to_stand(program: Program, hero: int, knots: Sequence[str]) -> bool:
-    """Whether a program says that a hero is 0 m/s fast at one of these knots."""
-    for formula in (constraint.formula for constraint in program.constraints):
-        match formula:
-            case Compare("==", State(actor=actor, order=1, at=Knot(name=knot)), Number(value=value)) | Compare(
-                "==", Number(value=value), State(actor=actor, order=1, at=Knot(name=knot))
-            ) if actor == hero and knot in knots and value == 0:
-                return True
-    return False
 
 
 def _of_hero(

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
-from fractions import Fraction
 
 from scenewright.program.expressions import (
     Compare,
@@ -126,12 +125,22 @@ def speeds_told_at(program: Program, instant: frozenset[KnotKey]) -> set[int]:
     return {node.actor for each in told for node in walk(each) if isinstance(node, State) and node.order == 1}
 
 
+def standstills(program: Program, actor: int) -> set[str]:
+    """Return the knots at which a program says that somebody is 0 m/s fast."""
+    found = set()
+    for formula in (constraint.formula for constraint in program.constraints):
+        match formula:
+            case Compare("==", State(actor=who, order=1, at=Knot(name=knot)), Number(value=value)) | Compare(
+                "==", Number(value=value), State(actor=who, order=1, at=Knot(name=knot))
+            ) if who == actor and value == 0:
+                found.add(knot)
+    return found
+
+
 def stands_at_end(program: Program, actor: int) -> bool:
     """Whether a program ends with somebody standing: its last piece, or the speed that it is to have there, says so."""
     sketch = program.actor(actor).sketch
-    stands = State(actor, 1, Knot(sketch.knots[-1])), Number(Fraction(0))
-    told = (c.formula for c in program.constraints if isinstance(c.formula, Compare) and c.formula.operator == "==")
-    return sketch.pieces[-1] is PieceKind.STOP or any((each.left, each.right) == stands for each in told)
+    return sketch.pieces[-1] is PieceKind.STOP or sketch.knots[-1] in standstills(program, actor)
 
 
 def synchronised(formula: Formula) -> Iterator[tuple[KnotKey, KnotKey]]:

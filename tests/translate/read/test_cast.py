@@ -79,3 +79,9 @@ def test_the_second_one_is_not_the_first_though_nobody_calls_that_so() -> None:
     text += "ego is 40 m before the conflict point, the second car brakes."
     program = understand(text).program
     assert [" ".join(actor.sketch.pieces) for actor in program.heroes] == ["go", "go dec"]
+
+
+def test_the_other_one_is_not_who_was_spoken_of_last() -> None:
+    text = "The ego drives west. A red car is oncoming and turns left. A blue car turns right out of the driveway. "
+    text += "When the ego is 40 m before the intersection, the red car brakes. Then the other car speeds up to 8 m/s."
+    assert [" ".join(actor.sketch.pieces) for actor in understand(text).program.heroes] == ["go dec", "go acc"]

@@ -303,3 +303,41 @@ def test_the_sign_of_a_deceleration_says_it_again_and_that_of_an_acceleration_co
 )
 def test_what_no_program_says_is_named_before_what_is_unclear(text: str, named: str) -> None:
     assert f"{named} cannot be said in a program yet" in str(reading_of(text).told)
+
+
+def test_what_is_not_done_from_the_start_on_is_held_from_then_on() -> None:
+    text = f"{ONCOMING}The hero never stops. When the ego is 40 m before the intersection, the hero accelerates."
+    assert "A1v(go) >= 1" in formulas(reading_of(text))
+    late = f"{ONCOMING}When the ego is 40 m before the intersection, the hero drives on. It does not stop."
+    assert {"A1v(go2) >= 1"} == {each for each in formulas(reading_of(late)) if each.startswith("A1v(go")}
+
+
+@pytest.mark.parametrize("where", ["at the intersection", "5 m before the conflict point", "just before the stop line"])
+def test_a_place_where_something_is_not_done_is_no_place_of_the_deed(where: str) -> None:
+    assert reading_of(f"{MEETS}the hero brakes to 3 m/s without stopping {where}.").program is None
+
+
+def test_then_one_does_this_and_another_that_is_at_one_moment() -> None:
+    found = formulas(
+        reading_of(f"{THREE}{TRIGGER}. An oncoming bus turns left. Then the van brakes and the bus goes on.")
+    )
+    assert "A2(t1) == A3(t1)" in found
+
+
+def test_a_deed_of_so_long_has_ended_before_a_later_moment() -> None:
+    said = "brakes at 2 m/s^2 for 2 s. When the ego is 5 m before the stop line, the hero brakes to a stop."
+    reading = reading_of(f"{MEETS}the hero {said}")
+    assert pieces(reading) == "go dec go dec"
+    assert "A1(t2) - A1(t1) == 2" in formulas(reading)
+
+
+@pytest.mark.parametrize("said", ["begins to brake to a stop 2 s before", "begins to brake to 4 m/s before"])
+def test_what_begins_before_something_begins_before_it(said: str) -> None:
+    reading = reading_of(f"{ONCOMING}The hero {said} the ego passes the conflict point.")
+    assert pieces(reading) == "go dec"
+    assert {"A0(t1) - A1(t1) == 2", "A0(t1) > A1(t1)"} & formulas(reading)
+
+
+def test_who_goes_first_does_so_at_its_own_conflict_point() -> None:
+    found = formulas(reading_of(f"{THREE}{TRIGGER}. At the same time the van goes first."))
+    assert "A0x(t2) == A0.conflict_point(A2)" in found

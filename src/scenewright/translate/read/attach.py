@@ -68,6 +68,8 @@ def _attach(taken: Taken) -> None:
         raise taken.left_over(taken.chunks[0])
     clause.measures = [_of(each, clause.subject) for each in clause.measures]
     clause.rates = [_of(each, clause.subject) for each in clause.rates]
+    if any(each.place is not None and each.place.partner == each.actor for each in clause.measures):
+        raise taken.left_over(last)  # "it" of a conflict point with somebody, said of that one
     clause.agree()
 
 

@@ -103,6 +103,8 @@ class Cast:
             return self._called(chunk, "ego", "car")
         words = {each.text.lower() for each in chunk.traits if each.kind == "quality"}
         fitting = [each for each in self.heroes if self._fits(each, chunk, words)]
+        if not chunk.is_new and any(each.kind == "other" for each in chunk.traits):  # not who was spoken of last
+            fitting = [each for each in fitting if each.id != self.subject] or fitting
         fitting = [each for each in fitting if each.name == chunk.value] or fitting
         fitting = [each for each in fitting if words and words <= self.known_by[each.id]] or fitting
         another = chunk.is_new and (bool(words & _FURTHER) or any(each.kind == "other" for each in chunk.traits))

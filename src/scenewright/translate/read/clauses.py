@@ -186,6 +186,10 @@ class Taken:
                 clause.phase = value
             case "ordinal" if all(each.kind != "ordinal" for each in self.chunks[: self.at]):
                 clause.ordinal = int(value)
+            case "refrains" if self.peek()[0] in ("amount", "near") or (
+                self.peek()[0] == "side" and self.peek()[1] in (*_SIDES, "at")
+            ):
+                raise self.left_over(self.chunks[self.at + 1])  # "without stopping at the junction": it is there or not
             case "standstill" | "open" | "kept" | "order" | "yields" | "insists" | "refrains":
                 clause.flags.add(value)
             case "link" if value == "start":

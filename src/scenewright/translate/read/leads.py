@@ -14,10 +14,9 @@ from scenewright.translate import story as st
 from scenewright.translate.phrases import DOES
 from scenewright.translate.read.chunks import Chunk
 from scenewright.translate.read.clauses import OPERATORS, PEOPLE, Clause
-from scenewright.translate.read.narrative import Doing, Narrative
+from scenewright.translate.read.narrative import CHANGES, Doing, Narrative
 
 _WORDS = ("then", "then left", "then right", "at once", "later", "meanwhile", "start", "same time")
-_CHANGES = (st.Verb.BRAKE, st.Verb.SPEED_UP, "stop")  # deeds that nobody is at from the start, unless that is said
 Delay = tuple[st.Operator, st.Amount]
 
 
@@ -79,7 +78,7 @@ def told_before(story: Narrative, clause: Clause) -> Doing | None:
     """Return the deed that a clause tells once more: nobody brakes, then brakes, unless a word says so."""
     own = next((each for each in reversed(story.doings) if each.actor == clause.subject), None)
     verb = st.Verb.BRAKE if clause.deed == "stop" else clause.deed
-    return own if own is not None and own.verb == verb and verb in _CHANGES and clause.ordinal == 0 else None
+    return own if own is not None and own.verb == verb and verb in CHANGES and clause.ordinal == 0 else None
 
 
 def moment_led_to(
@@ -107,7 +106,7 @@ def moment_led_to(
         moment = story.new_moment()
         story.orders.append(st.Order(after, moment, op, margin, story.quote))
         return moment
-    if is_new and clause.deed in _CHANGES and "start" not in words:
+    if is_new and clause.deed in (*CHANGES, "stop") and "start" not in words:
         fix = "begin it with 'When ...,', 'At the same time,' or 'Then'"
         story.refuse("it is not clear when this is done", fix=fix)
     return None

@@ -23,6 +23,7 @@ from scenewright.units import UNITS, Unit, unit_of_name
 
 COURTESIES = {"yields", "insists"}
 REFRAINS = {"no stop", "no brake"}
+CHANGES = (st.Verb.BRAKE, st.Verb.SPEED_UP)  # what nobody is at from the start, or on and on, unless that is said
 # Slower than at a walk is as good as standing: who does not stop is this fast at least. Chosen.
 _WALK = st.Amount(Fraction(1), "m/s")
 _LINE = re.compile(r"^(Title:|Map:|Manner:|Parameter) (.*)$", re.MULTILINE)
@@ -59,7 +60,8 @@ class Narrative(Cast):
     awaits: st.Quote | None = None  # the sentence that told nothing but a moment: what happens then must follow
     kept: list[tuple[int, st.Quote]] = field(default_factory=list)  # who keeps the speed that it has at the start
     courtesies: list[tuple[int | None, str, st.Quote]] = field(default_factory=list)  # who yields, or does not
-    refrains: list[tuple[int | None, str, st.Quote]] = field(default_factory=list)  # what somebody does not do
+    # Who does not do what, and whether that is so from the start.
+    refrains: list[tuple[int | None, str, st.Quote, bool]] = field(default_factory=list)
     parameters: list[Parameter] = field(default_factory=list)
     manner: Manner = USUAL
     map_name: str = DEFAULT_MAP
@@ -75,8 +77,8 @@ class Narrative(Cast):
             self._keep(actor, quote)
         for who, courtesy, quote in self.courtesies:
             self._check(who, courtesy, quote)
-        for who, what, quote in self.refrains:
-            self._refrain(who, what, quote)
+        for each in self.refrains:
+            self._refrain(*each)
         for doing in self.doings:
             self.finish(doing)
             assert doing.ends is not None
@@ -117,10 +119,10 @@ class Narrative(Cast):
         if not own or stops is not (courtesy == "yields"):
             self.refuse("it is not said what is done to yield, or instead", quote, "say where it stops or passes")
 
-    def _refrain(self, who: int | None, what: str, quote: st.Quote) -> None:
-        """Let somebody not brake, or not stop, in all that it does from its first moment on."""
+    def _refrain(self, who: int | None, what: str, quote: st.Quote, always: bool) -> None:
+        """Let somebody not brake, or not stop, in all that it does: from its first moment on, or always."""
         own = [doing for doing in self.doings if doing.actor == who]
-        own = [doing for doing in own if doing.begins != st.START] or own
+        own = [doing for doing in own if always or doing.begins != st.START] or own
         if who is None or not own:
             self.refuse("it is not said what is done instead", quote, "say it, as in 'drives on without braking'")
         for doing in own:
@@ -271,7 +273,9 @@ class Narrative(Cast):
                 self.doings.append(Doing(actor, first, st.START, moment, quote=self.quote))
                 self.assumptions += [f"{self.actor(actor).name} stands still until then"] * waits
             begins = st.START if moment is None else moment
-        elif before.ends is None and not before.rests:
+        elif before.ends is None and not (
+            before.rests or (before.lasts and moment is not None and before.verb in CHANGES)
+        ):
             begins = before.ends = self.new_moment() if moment is None else moment
         else:
             begins = self._go_on(before, verb, moment, leads)

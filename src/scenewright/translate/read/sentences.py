@@ -7,7 +7,7 @@ error that quotes the words that nothing could be made of.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import zip_longest
 from typing import NoReturn
 
@@ -109,7 +109,7 @@ class _Sentence:
         items = [each for each in items if each.says_more_than()] or items[:1]
         does = any("shall" in each.notes and not each.says_more_than() for each in items)  # "so does the hero"
         timed = any(each.times for each in when or ())
-        is_told = when is not None or self.pending is not None or bool(self.leads & {"then", "at once"})
+        is_told = when is not None or self.pending is not None or bool(self.leads & {"then", "at once", "same time"})
         items = self._acts(items, is_told and not timed)
         if not items and when is None:
             if rest or does:
@@ -132,7 +132,7 @@ class _Sentence:
                 follows = following.subject == item.subject and item.deed is not None
                 if follows or "then" in following.notes:
                     self.leads, when, self.pending = {"then"}, None, None
-                elif "same time" in following.notes and when is None:
+                elif when is None and following.subject != item.subject:  # "then one brakes and another speeds up"
                     self.leads = {"same time"}
         elif first.deed and not (known and tells_time):
             self._deed(first, when, rest)
@@ -174,7 +174,8 @@ class _Sentence:
         for item in items:
             self.story.courtesies += [(item.subject, each, item.quote) for each in item.flags & COURTESIES]
             refrains = item.flags & REFRAINS
-            self.story.refrains += [(item.subject, each, item.quote) for each in sorted(refrains)]
+            always = not happens and all(doing.actor != item.subject for doing in self.story.doings)
+            self.story.refrains += [(item.subject, each, item.quote, always) for each in sorted(refrains)]
             item.flags -= COURTESIES | REFRAINS
             is_hero = happens and item.deed is None and item.subject not in (None, EGO)
             meant = "wanted" in item.notes or ("relative" in item.notes and acts)
@@ -299,8 +300,10 @@ class _Sentence:
         elif clause.deed == "go first":
             ends.append(self._at(clause.subject, "conflict_point"))
         is_event = "event" in clause.notes
-        fronts = [each for each in rest if not is_event and (each.link == "after" or each.is_first
-                                                             or (each.margin and not ends))]  # fmt: skip
+        begun = clause.phase == "begins"  # "begins to brake to a stop 2 s before ..."
+        orders = [each for each in rest if each.link in _ORDERS and not is_event]
+        fronts = [each for each in orders if begun or each.link == "after" or each.is_first
+                  or (each.margin and not ends)]  # fmt: skip
         if drives_on or fronts:
             self.leads.add("then")
         verb = {"stop": st.Verb.BRAKE, "turn": st.Verb.DRIVE, "go first": st.Verb.DRIVE}.get(clause.deed, clause.deed)
@@ -325,14 +328,17 @@ class _Sentence:
             story.refuse("it is not clear when this ends")
         self._end(doing, clause, ends, next((each for each in rest if each.link == "until"), None))
         if clause.deed == "go first":  # it passes before the ego does
-            passes = story.event(Clause(story.quote, EGO, measures=[self._at(EGO, "conflict_point")]))
+            there = self._at(EGO, "conflict_point")
+            if len(story.heroes) > 1 and clause.subject != story.heroes[0].id:  # a bare one is that with the first
+                there = replace(there, place=st.Place("conflict_point", None, clause.subject))
+            passes = story.event(Clause(story.quote, EGO, measures=[there]))
             story.orders.append(st.Order(doing.ends or st.START, passes, ">", None, story.quote))
         until, at_end = False, is_event or (again is not None and clause.deed == "stop")
         for each in rest:
             if each.link == "until":  # "... until it passes the conflict point 1 s before the ego"
                 until = True
                 continue
-            late = at_end or until or not (each.is_first or each.link == "after" or not ends)
+            late = at_end or until or not (each.is_first or begun or each.link == "after" or not ends)
             late = late and (doing.ends is not None or doing.rests)
             self._orders(story.finish(doing) if late else doing.begins, [each])
         if rests and "for" in clause.times:
