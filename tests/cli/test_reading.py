@@ -135,7 +135,9 @@ def test_judge_rewrites_the_verdict_and_its_status_follows_the_tolerance(command
     # The trigger asked for 3 m elsewhere: beyond the tight tolerance, within the loose one.
     program = Path("here/program.scene")
     program.write_text(program.read_text(encoding="utf-8").replace("conflict_point - 25", "conflict_point - 28"))
+    page = Path("here/index.html").read_text(encoding="utf-8")
     assert command("judge", "here").exit_code == 1
+    assert Path("here/index.html").read_text(encoding="utf-8") != page  # it shows the verdict that there is now
     assert command("judge", "here", "--tolerance", "loose").exit_code == 0
     data = json.loads(command("judge", "here", "--json").stdout)
     assert data["success"] == {"tight": False, "loose": True}

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -39,7 +41,7 @@ def test_misprediction_is_what_the_trace_shows() -> None:
     assert good is not None
     assert good.tolerance <= GOOD
     assert good.foreseen is not None
-    found = foreseen_otherwise(world, run, good, trigger_s, at_trigger=True)
+    found = foreseen_otherwise(world, run, good, trigger_s, world.scene.program.actor(HERO), at_trigger=True)
     assert found is not None
     seen, ego = found.evidence, run.trace.actors["ego"]
     assert seen["off_m"] == pytest.approx(ego.position(seen["time_s"]) - good.foreseen.state(seen["time_s"])[0])
@@ -48,12 +50,24 @@ def test_misprediction_is_what_the_trace_shows() -> None:
         assert abs(ego.position(time_s) - good.foreseen.state(time_s)[0]) <= 0.5
 
 
+def test_a_trigger_without_the_ego_is_not_held_against_when_it_comes_to_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    world, run, verdict = driven("yields, distance", "staller", mode="open")
+    trigger_s = verdict.facts["trigger_time_s"]["hero"]
+    good = last_good(run, trigger_s)
+    assert good is not None
+    alone = replace(world.structure, triggers={HERO: frozenset({(HERO, "t1")})})
+    monkeypatch.setattr(world, "structure", alone)
+    found = foreseen_otherwise(world, run, good, trigger_s + 1.0, world.scene.program.actor(HERO), at_trigger=True)
+    assert found is not None
+    assert (found.evidence["off_s"], found.evidence["time_s"]) == (0.0, trigger_s + 1.0)
+
+
 def test_no_misprediction_of_an_ego_that_holds_its_speed() -> None:
     world, run, verdict = driven("yields, distance", "constant")
     trigger_s = verdict.facts["trigger_time_s"]["hero"]
     good = last_good(run, trigger_s)
     assert good is not None
-    assert foreseen_otherwise(world, run, good, trigger_s, at_trigger=True) is None
+    assert foreseen_otherwise(world, run, good, trigger_s, world.scene.program.actor(HERO), at_trigger=True) is None
     assert ego_never_there(world, run, verdict) is None
     assert limit_reached(world, run, world.scene.program.actor(HERO), 0.0, trigger_s) is None
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from plays import CROSSING, YIELDS, Motion, Play, text
+from plays import AHEAD, CROSSING, YIELDS, Motion, Play, text
 
 from scenewright.judge.judgement import judge
 from scenewright.judge.tolerance import TIGHT
@@ -116,3 +116,28 @@ SECOND = replace(
 )
 def test_what_follows_from_a_knot_does_not_bound_it(pieces: list[tuple[float, float]], holds: bool) -> None:
     assert (failing(judge(SECOND.with_hero(pieces=pieces).case())) == set()) is holds
+
+
+# Whoever holds a speed of 9 m/s has it all the time, and the headway is from 1.5 to 2 s for 0.9 s: it may brake at any
+# moment of those, and at no other.
+RANGE = Play(
+    text=text(
+        "[t0, go, t1, dec, t2]",
+        "A0(t1) == A1(t1)\nheadway(A0, A1, t1) >= 1.5\nheadway(A0, A1, t1) <= 2\nA1v(t1) == 9\nA1v(t2) == 0",
+        heading="E",
+    ),
+    ego=Motion(0.0, 14.0, []),
+    hero=Motion(52.5, 9.0, [(4.0, 0.0), (10.0, -2.5)]),  # the headway is 2 s at 4 s
+    trigger_s=4.0,
+    hero_line=AHEAD,
+    duration_s=10.0,
+    offset_m=0.0,
+)
+
+
+@pytest.mark.parametrize(("brakes_s", "holds"), [(4.0, True), (4.4, True), (4.85, True), (3.5, False), (6.2, False)])
+def test_a_moment_of_a_stretch_is_where_it_was_acted_upon(brakes_s: float, holds: bool) -> None:
+    verdict = judge(RANGE.with_hero(pieces=[(brakes_s, 0.0), (10.0, -2.5)]).case())
+    assert (failing(verdict) == set()) is holds
+    if holds:
+        assert verdict.facts["trigger_time_s"]["hero"] == pytest.approx(brakes_s, abs=0.11)

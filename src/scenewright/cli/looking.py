@@ -26,18 +26,21 @@ def judge(
     fail_on: FailOnOption = None,
     as_json: AsJson = False,
 ) -> None:
-    """Judge a run again, from its trace and program alone, and rewrite its verdict.json."""
+    """Judge a run again, from its trace and program alone, and rewrite its verdict.json and the page that shows it."""
     with told(as_json):
         from scenewright.cli.running import fails_on, report_verdict
         from scenewright.judge.files import VERDICT_FILE, cause_told, read_case, write_verdict
         from scenewright.judge.judgement import judge as judge_case
         from scenewright.judge.tolerance import TIGHT
+        from scenewright.studio.page import PAGE_FILE, write_page
 
         case = read_case(directory)
         verdict = judge_case(case)
         if not verdict.holds_at(TIGHT):  # why it missed was found by driving, which is not done again
             verdict = replace(verdict, cause=cause_told(directory))
         write_verdict(verdict, directory / VERDICT_FILE)
+        if (directory / PAGE_FILE).is_file():
+            write_page(directory)
         data = verdict.as_dict()
         if as_json:
             print_json(data)

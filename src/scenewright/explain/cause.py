@@ -66,18 +66,20 @@ def cause_of(world: World, run: Run, verdict: Verdict, tolerance: Tolerance, pro
         return _cause("plan", _begun_so(run, begun[0]))
     hero = _hero(world.scene.program, failed)
     ended = cut_short(world, run, hero)
-    if ended is not None and never_came(world, verdict, missed):
+    knots_s = run.last_plan.profiles[hero.id].knot_times_s
+    acted_s = knots_s.get(world.structure.trigger_knot(hero.id) or "", run.trace.duration_s)
+    # Where the ego has no part in a trigger that lies beyond the end, it was in nobody's hands.
+    waits = acted_s > run.trace.duration_s and EGO not in {who for who, _ in world.structure.triggers.get(hero.id, ())}
+    if ended is not None and (waits or never_came(world, verdict, missed)):
         return _cause("plan", ended)
     # What is asked of both after the trigger is missed by how the ego then drives; all else by what came to be at it.
     later = len(failed) == len(missed) and all(world.structure.roles[each.id] is Role.OUTCOME for each in failed)
-    knots_s = run.last_plan.profiles[hero.id].knot_times_s
-    acted_s = knots_s.get(world.structure.trigger_knot(hero.id) or "", run.trace.duration_s)
     until_s = min(max(knots_s.values()) if later else acted_s, run.trace.duration_s)
     # What was to last and was broken no later plan mends, however good the rest of it is.
     lasting = any(isinstance(node, Temporal) for each in failed for node in walk(each.formula))
     worst = max((tick for tick in run.replans if tick.time_s < until_s), key=lambda tick: tick.tolerance, default=None)
     good = last_good(run, worst.time_s if lasting and worst is not None and worst.tolerance > GOOD else until_s)
-    otherwise = good and foreseen_otherwise(world, run, good, until_s, at_trigger=not later)
+    otherwise = good and foreseen_otherwise(world, run, good, until_s, hero, at_trigger=not later)
     # Where no plan ever did it, what stands against it may lie in what was to follow.
     to_s = until_s if good else min(max(knots_s.values()), run.trace.duration_s)
     limit = limit_reached(world, run, hero, good.time_s if good else 0.0, to_s)

@@ -102,16 +102,18 @@ def last_good(run: Run, until_s: float) -> Replan | None:
     return good[-1] if good else None
 
 
-def foreseen_otherwise(world: World, run: Run, tick: Replan, until_s: float, *, at_trigger: bool) -> Finding | None:
+def foreseen_otherwise(
+    world: World, run: Run, tick: Replan, until_s: float, hero: Actor, *, at_trigger: bool
+) -> Finding | None:
     """Return by how much the ego was off what the plan of `tick` foresaw; None for no more than the tight tolerance.
 
-    What counts is the instant `until_s`; with `at_trigger` that is when the trigger was acted upon, and what counts is
-    the instant at which it was to come by that plan, and when that is.
+    What counts is the instant `until_s`; with `at_trigger` that is when the trigger of `hero` was acted upon, and what
+    counts is the instant at which it was to come by that plan, and when that is.
     """
     ego, foreseen = run.trace.actors[world.scene.program.ego.name], tick.foreseen
     assert foreseen is not None
-    knot = world.structure.trigger_knot(EGO)
-    planned_s = foreseen.knot_times_s.get(knot or "", until_s) if at_trigger else until_s
+    knot = next((knot for actor, knot in world.structure.triggers.get(hero.id, ()) if actor == EGO), "")
+    planned_s = foreseen.knot_times_s.get(knot, until_s) if at_trigger else until_s
     off_s, then_s = until_s - planned_s, min(planned_s, run.trace.duration_s)
     seen_m, seen_mps, _ = foreseen.state(then_s)
     drove_m, drove_mps = ego.position(then_s), ego.speed(then_s)

@@ -41,6 +41,7 @@ _TIE = 1e-3
 _ROUNDING_MPS = 0.005  # speeds that differ by less are the same
 _LOOK_S = 0.25  # shorter than any phase
 _NEAR_S = 1.0  # within tolerances a moment is no point
+_EXACTLY = 0.1  # of a tight tolerance: what holds so well holds, whatever tolerances there are
 _PASSES = 3  # a knot may be defined by another actor's, which may be defined by a third
 
 
@@ -192,7 +193,9 @@ def _best_instant(case: Case, group: Group, knots: dict[KnotKey, float]) -> tupl
     if not found:
         return np.inf, True
     chosen = _likeliest(case, group, judged, found)
-    return chosen, not np.any((score(grid) <= 1) & (np.abs(grid - chosen) > _NEAR_S))
+    misses, off_s = score(grid), np.abs(grid - chosen)
+    elsewhere = ((misses <= 1) & (off_s > _NEAR_S)) | ((misses <= _EXACTLY) & (off_s > TIGHT.time_s))
+    return chosen, not np.any(elsewhere)
 
 
 def _likeliest(case: Case, group: Group, judged: list[Formula], found: list[Minimum]) -> float:

@@ -88,10 +88,11 @@ def _candidates(
     """Return moments between two, likely ones first."""
     if not high > low:
         return ()
+    seen = [time_s for key in group for time_s in visible_times(case, key, low, high)]
     if visible:
-        return [time_s for key in group for time_s in visible_times(case, key, low, high)]
+        return seen
     likely = _best_of_each(case, measured.moments.knots, group, low, high)
-    return dict.fromkeys([*likely, *np.linspace(low, high, _TRIED).tolist()])
+    return dict.fromkeys([*seen, *likely, *np.linspace(low, high, _TRIED).tolist()])
 
 
 def _best_of_each(

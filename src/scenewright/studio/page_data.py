@@ -301,6 +301,8 @@ def _conditions(
 ) -> list[Json]:
     times = condition_times(program, knots) if program else {}
     words = {c.id: program.words_of(c) for c in program.constraints} if program else {}
+    came = {trigger["hero"]: trigger["time_s"] for trigger in reached}
+    heroes = sorted((hero.name for hero in program.heroes), key=len, reverse=True) if program else []
     rows = []
     for condition in (verdict or {}).get("conditions") or []:
         identifier, text = str(condition.get("id", "")), str(condition.get("text") or "")
@@ -308,8 +310,10 @@ def _conditions(
         owner = identifier if identifier in words else identifier.partition(".")[0]
         said = words.get(owner)
         time = times.get(owner)
-        if owner not in words and condition.get("kind") in ("trigger", "interaction") and reached:
-            time = reached[0]["time_s"]  # what the judge asks beyond the program is about what begins at the trigger
+        if owner not in words and condition.get("kind") in ("trigger", "interaction"):
+            # What the judge asks beyond the program is about what begins at a trigger: that of the hero it is about.
+            about = next((name for name in heroes if identifier.startswith(f"{name}_")), None)
+            time = times.get(identifier.removesuffix("_falls")) if about is None else came.get(about)
         rows.append(
             {
                 "id": identifier,
