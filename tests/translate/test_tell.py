@@ -44,7 +44,7 @@ def test_two_who_begin_at_one_moment() -> None:
     told = tell(decompile(parse_program(TWO)))[3:]
     there = "the conflict point with"
     assert told == [
-        "When the ego is 30 m before the conflict point, the hero begins to brake until it stands.",
+        f"When the ego is 30 m before {there} the hero, the hero begins to brake until it stands.",
         f"When the hero begins to brake, the car 'blue_car' begins to speed up until it passes {there} the hero.",
         f"The car 'blue_car' passes {there} the hero before the ego passes {there} the car 'blue_car'.",
     ]

@@ -9,6 +9,7 @@ from scenewright.roads.load import load_map
 from scenewright.translate.phrases import Phrases
 from scenewright.translate.read.sentences import read
 from scenewright.translate.story import Quantity, Story
+from scenewright.translate.understand import understand
 from scenewright.translate.ways import put_on_map
 
 MAP = load_map("t_intersection")
@@ -69,3 +70,11 @@ def test_no_way_that_fits_is_refused_with_those_that_there_are() -> None:
     with pytest.raises(TranslationError, match="no way on t_intersection fits what is said of the hero") as caught:
         ways("The ego is headed west and goes straight on. The hero is headed north and turns left.")
     assert "right" in (caught.value.expected or "")
+
+
+def test_who_has_a_gap_at_the_start_and_no_way_begins_in_that_lane() -> None:
+    parked = "The ego drives east. A truck is parked 60 m ahead of it. "
+    found = understand(parked + "When the ego is 30 m behind the truck, the truck sets off.")
+    assert [actor.way.heading for actor in found.story.actors] == ["E", "E"]
+    assert not found.questions
+    assert "truck begins in the lane of the ego" in found.story.assumptions

@@ -15,7 +15,7 @@ from typing import TypeGuard
 from scenewright.errors import TranslationError
 from scenewright.program.expressions import LANDMARKS, Node
 from scenewright.program.printer import print_expression
-from scenewright.program.types import PieceKind
+from scenewright.program.types import EGO, PieceKind
 from scenewright.translate import story as st
 from scenewright.translate.compile import PIECES
 from scenewright.units import format_fraction
@@ -87,11 +87,22 @@ class Phrases:
         found = next(each for each in self.story.actors if each.id == actor)
         return called(found.name, found.kind)
 
-    def place(self, place: st.Place) -> str:
-        """Return a place; whose it is where that is somebody else, with whom where that is not the usual one."""
-        text = f"the {PLACES[place.name]}"
-        text += "" if place.of is None else f" of {self.name(place.of)}"
-        return text + ("" if place.partner is None else f" with {self.name(place.partner)}")
+    def place(self, place: st.Place, actor: int | None = None) -> str:
+        """Return a place of somebody, whose it is where that is somebody else, with whom where it may be unclear."""
+        partner = self._partner(place, actor)
+        text = f"the {PLACES[place.name]}" + ("" if place.of is None else f" of {self.name(place.of)}")
+        return text + ("" if partner is None else f" with {self.name(partner)}")
+
+    def _partner(self, place: st.Place, actor: int | None) -> int | None:
+        """Return with whom a place is told: the ego's conflict point with its usual partner too, beside others."""
+        owner = actor if place.of is None else place.of
+        is_open = (place.name, owner) == ("conflict_point", EGO) and len(self.story.heroes) > 1
+        return self.story.heroes[0].id if place.partner is None and is_open else place.partner
+
+    def _told_partners(self, condition: st.Condition) -> set[int]:
+        """Return with whom the places of a condition are told to be."""
+        found = {self._partner(each.place, each.actor) for each in st.within(condition, st.Measure) if each.place}
+        return {each for each in found if each is not None}
 
     def clauses(self, conditions: Sequence[st.Condition], it: int | None = None, passing: bool = True) -> list[str]:
         """Return a clause for each condition; who stands at a place is said in one. `it` is who is called so."""
@@ -107,7 +118,7 @@ class Phrases:
                 continue
             # Whoever alone has been spoken of is "it" from then on.
             known = each.actor if it is None and isinstance(each, st.Measure) and spoken == {each.actor} else it
-            spoken |= st.people_in(each)
+            spoken |= st.people_in(each) | self._told_partners(each)
             clause = self.clause(each, known, passing and each not in places)
             where = f" {self.predicate(places[each]).removeprefix('is ')}" if each in places else ""
             found.append(clause + where)
@@ -142,7 +153,7 @@ class Phrases:
             case st.Quantity.PLACE if measure.place is not None:
                 return self._where(measure, measure.place, bound, passing)
             case st.Quantity.ARRIVAL if measure.place is not None:
-                return f"is {bound} from {self.place(measure.place)}"
+                return f"is {bound} from {self.place(measure.place, measure.actor)}"
             case st.Quantity.SPEED if measure.other is not None:
                 whom = self.name(measure.other)
                 if measure.amount is None:
@@ -166,11 +177,11 @@ class Phrases:
 
     def _where(self, measure: st.Measure, place: st.Place, bound: str, passing: bool) -> str:
         if bound:
-            return f"is {bound} {'past' if measure.opposite else 'before'} {self.place(place)}"
+            return f"is {bound} {'past' if measure.opposite else 'before'} {self.place(place, measure.actor)}"
         if measure.op == "==" and place in TURNING:
             return TURNING[place]
         does = "passes" if passing and measure.op == "==" else f"is {SIDES[measure.op]}"
-        return f"{does} {self.place(place)}"
+        return f"{does} {self.place(place, measure.actor)}"
 
     def way(self, way: st.Way) -> str:
         """Return how somebody drives."""

@@ -17,6 +17,8 @@ from scenewright.units import SI_SYMBOL, format_fraction
 
 _LASTING = (st.Verb.DRIVE, st.Verb.STAND)  # deeds that need no end to be told
 _SLOWING: dict[str, bool] = {st.Verb.BRAKE: True, st.Verb.SPEED_UP: False}  # deeds that are told with their rate
+# How much later at most, of what may be earlier, too.
+_CLOSE: dict[st.Operator, str] = {"<=": "no later than ", "<": "earlier than "}
 
 Told = tuple[str, tuple[st.Quote, ...]]  # a sentence, and the quotes of what it tells
 
@@ -36,6 +38,7 @@ class Teller(Phrases):
     fresh: list[int] = field(default_factory=list)  # moments of which the joined conditions have not been told
     begun: list[st.Deed] = field(default_factory=list)  # deeds that have been told
     ended: list[st.Deed] = field(default_factory=list)  # those of which a reader knows when they end
+    is_apart: bool = False  # a moment that is nobody's was told after the last deed
 
     def lines(self) -> list[Told]:
         """Return all sentences."""
@@ -54,9 +57,10 @@ class Teller(Phrases):
             for deed in story.deeds:
                 if deed.begins == moment:
                     self._deed(deed)
+        near = {order: twin for order in story.orders if (twin := self._twin(order)) is not None}
         for order in story.orders:
-            if order not in self.durations:
-                self._say(sentence(self.order(order)), order)
+            if order not in self.durations and order not in near.values():
+                self._say(sentence(self.order(order, order in near)), order)
                 for moment in (order.first, order.second):
                     self._introduce(moment)
         for hold in story.holds:
@@ -129,6 +133,7 @@ class Teller(Phrases):
         when = "Later" if time is None else f"When it is {amount(time)} after the start"
         self._say(f"{when}, {listed(self.clauses(conditions))}.", *conditions)
         self._introduce(moment)
+        self.is_apart = True
 
     def _is_left_to_an_order(self, moment: int) -> bool:
         """Whether a moment is the ego's last and one event, and an order speaks of it."""
@@ -181,6 +186,7 @@ class Teller(Phrases):
         plain &= st.standstill(deed.actor) not in self.story.moments[st.START].conditions
         if index == 0 and plain and self._items(deed.ends):
             return  # "When ..., the hero begins to brake" says it
+        self.is_apart = False
         self.begun += [each for each in chain[: index + 1] if each not in self.begun]
         self.ended += chain[:index] if waits else chain[: index + 1]
         self._introduce(deed.begins)
@@ -209,12 +215,16 @@ class Teller(Phrases):
         """Return the words before the subject, and whether the deed is told as one that begins: ``When ..., ``."""
         if index == 0:
             return ("At the start, " if deed.verb in (st.Verb.BRAKE, st.Verb.SPEED_UP) else ""), False
-        if chain[index - 1].verb in _LASTING:
-            items = self._items(deed.begins)
-            return (f"When {listed(items)}, ", True) if items else ("Then ", False)
-        moving = deed.verb in (st.Verb.DRIVE, st.Verb.SPEED_UP)
-        at_rest = st.standstill(deed.actor) in self.story.moments[deed.begins].conditions
-        return "Then at once " if moving and at_rest else "Then ", False
+        before, at_once = chain[index - 1], False
+        if before.verb in _LASTING:
+            if items := self._items(deed.begins):
+                return f"When {listed(items)}, ", True
+        else:
+            moving = deed.verb in (st.Verb.DRIVE, st.Verb.SPEED_UP)
+            at_once = moving and st.standstill(deed.actor) in self.story.moments[deed.begins].conditions
+        # "Then" after what another one does would be an order.
+        follows = self.begun[-1].actor == deed.actor and not self.is_apart
+        return ("Then " if follows else f"After {DOES[before.verb][2]}, ") + "at once " * at_once, False
 
     def event(self, moment: int) -> str:
         """Return the words that a moment is known by."""
@@ -243,14 +253,22 @@ class Teller(Phrases):
             raise untold("so many deeds of one kind")
         return "" if number == 0 else f" for the {ORDINALS[number]} time"
 
-    def order(self, order: st.Order) -> str:
-        """Return the order of two moments as a clause."""
+    def _twin(self, order: st.Order) -> st.Order | None:
+        """Return the order that "at most 2 s after" tells with this one: it is not before it, either."""
+        is_near = order.first != st.START and order.op in _CLOSE and order.margin is not None
+        twins = (each for each in self.story.orders if (each.first, each.second, each.op, each.margin)
+                 == (order.first, order.second, ">=", None))  # fmt: skip
+        return next(twins, None) if is_near and order not in self.durations else None
+
+    def order(self, order: st.Order, is_near: bool = False) -> str:
+        """Return the order of two moments as a clause; `is_near`: the second is not before the first, either."""
         if st.START in (order.first, order.second):
             if order.first != st.START or order.margin is None:
                 raise untold("what comes before the start")
             return f"{self.event(order.second)} {bounded(order.op, order.margin)} after the start"
         if order.margin is not None:
-            margin = bounded(order.op, order.margin)
+            one_side = order.op in _CLOSE and not is_near
+            margin = _CLOSE[order.op] + amount(order.margin) if one_side else bounded(order.op, order.margin)
             return f"{self.event(order.second)} {margin} after {self.event(order.first)}"
         link = "before" if order.op == ">" else "no later than"
         return f"{self.event(order.first)} {link} {self.event(order.second)}"

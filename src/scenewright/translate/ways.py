@@ -26,6 +26,7 @@ IN_LINE = ("ahead", "behind", "same way")
 
 def put_on_map(story: st.Story, road_map: RoadMap, answers: Mapping[str, str] | None = None) -> st.Story:
     """Return `story` with whole ways; raises `TranslationError` where none on the map fits what is said of somebody."""
+    story = _in_one_lane(story)
     fitting = {actor.id: _fitting(actor, road_map) for actor in story.actors}
     for _ in story.actors:  # what one relation leaves may decide another
         for actor in story.actors:
@@ -57,6 +58,20 @@ def put_on_map(story: st.Story, road_map: RoadMap, answers: Mapping[str, str] | 
         settled.append(replace(actor, way=found[0], relations=relations))
     placed = replace(_in_line(story), actors=tuple(settled), questions=tuple(questions), assumptions=tuple(assumed))
     return _fits_ways(placed, answers or {})
+
+
+def _in_one_lane(story: st.Story) -> st.Story:
+    """Let somebody of whose way nothing is told be in one lane with whom it has a gap or a headway at the start to."""
+    pairs = [{each.actor, each.other} for each in story.moments[st.START].conditions
+             if isinstance(each, st.Measure) and each.quantity in (st.Quantity.GAP, st.Quantity.HEADWAY)]  # fmt: skip
+    actors, assumed, phrases = list[st.Actor](), [*story.assumptions], Phrases(story)
+    for actor in story.actors:
+        others = [each for pair in pairs for each in pair - {actor.id} if actor.id in pair and each is not None]
+        if others and actor.way == st.Way() and not actor.relations:
+            assumed.append(f"{actor.name} begins in the lane of {phrases.name(others[0])}")
+            actor = replace(actor, relations=(st.Relation("same way", others[0]),))
+        actors.append(actor)
+    return replace(story, actors=tuple(actors), assumptions=tuple(assumed))
 
 
 def _is_open(actor: st.Actor, story: st.Story) -> bool:

@@ -8,7 +8,7 @@ from scenewright.errors import UnknownWordsError
 from scenewright.program.printer import print_expression
 from scenewright.translate.read.cast import NEW
 from scenewright.translate.read.sentences import read
-from scenewright.translate.story import Story
+from scenewright.translate.story import Measure, Story, within
 from scenewright.translate.understand import understand
 
 EGO = "The ego turns left out of the driveway. "
@@ -85,3 +85,31 @@ def test_the_other_one_is_not_who_was_spoken_of_last() -> None:
     text = "The ego drives west. A red car is oncoming and turns left. A blue car turns right out of the driveway. "
     text += "When the ego is 40 m before the intersection, the red car brakes. Then the other car speeds up to 8 m/s."
     assert [" ".join(actor.sketch.pieces) for actor in understand(text).program.heroes] == ["go dec", "go acc"]
+
+
+TWO = "The ego turns left out of the driveway. The hero drives west. A van drives east. "
+
+
+@pytest.mark.parametrize(
+    ("said", "partners", "is_asked"),
+    [
+        ("When the ego is 12 m before the conflict point, the van brakes.", {2}, False),
+        ("When the ego is 12 m before the conflict point, the hero brakes.", {None}, False),
+        ("When the ego is 12 m before the conflict point with the van, the hero brakes.", {2}, False),
+        ("When the ego is 12 m before the conflict point, a truck from the left brakes.", {3}, False),
+        (
+            "When the ego passes the stop line, the van goes on to pass the conflict point before the ego.",
+            {2},
+            False,
+        ),
+        ("When the ego is 12 m before the conflict point and the hero is 4 s from it, the van brakes.", {None}, True),
+        ("At the start, the ego is 60 m before the conflict point.", {None}, True),
+    ],
+)
+def test_a_conflict_point_of_the_ego_is_that_with_whom_the_sentence_is_about(
+    said: str, partners: set[int | None], is_asked: bool
+) -> None:
+    story = read(TWO + said)
+    places = [each.place for each in within(story.moments, Measure) if each.actor == 0 and each.place is not None]
+    assert {place.partner for place in places if place.name == "conflict_point"} == partners
+    assert any(question.slot.startswith("conflict point") for question in story.questions) is is_asked

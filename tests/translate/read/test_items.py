@@ -43,8 +43,7 @@ def test_before_is_a_link_where_a_clause_follows() -> None:
     (chunks,) = sentences("the hero stands 5 m before the stop line at least 2 s before the ego begins to turn")
     segments = segments_of(chunks)
     assert [segment.link for segment in segments] == ["main", "before"]
-    assert segments[1].margin is not None
-    assert segments[1].margin[0] == ">="
+    assert [op for op, _ in segments[1].margins] == [">="]
 
 
 def test_a_moment_ends_at_the_comma_before_a_deed() -> None:

@@ -21,6 +21,7 @@ from scenewright.translate.model.schema import Claim, locate
 from scenewright.translate.phrases import BOUNDS, PLACES
 from scenewright.translate.phrases import amount as phrase_of
 from scenewright.translate.read.chunks import Chunk, sentences, vocabulary
+from scenewright.translate.read.items import ONE_SIDE
 
 STANDS = re.compile(r"(?i)\b(?:st[oa]\w*|halt\w*|rests?|wait\w*|parked|zero)\b")
 _BARE: dict[str, st.Operator] = {"past": ">", "at or past": ">=", "at or before": "<=", "before": "<"}
@@ -201,6 +202,8 @@ class Measured:
         said = self.heard.within(quote.span)
         bounds = ["==" if each.value in ("falls", "about") else each.value for each in said
                   if each.kind == "bound" and 0 <= at - each.end < 4]  # fmt: skip
+        sides = [each.value for each in said if each.kind == "side" and each.start > at] or [""]
+        bounds += [ONE_SIDE[key] for each in said if (key := (each.value, sides[0])) in ONE_SIDE and at > each.start]
         if bounds and any(each.kind == "negation" for each in said):  # "must not exceed"
             bounds = [{">": "<=", "<": ">=", ">=": "<", "<=": ">"}.get(bounds[-1], bounds[-1])]
         within = op == "<=" and any(each.value == "falls" for each in said)  # "within 2 s" of how long it takes

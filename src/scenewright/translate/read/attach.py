@@ -42,7 +42,9 @@ def _attach(taken: Taken) -> None:
     clause, last = taken.clause, taken.chunks[-1]
     _find_subject(taken)
     for target in taken.targets:
-        if target.place is None and target.other is None:
+        if target.place is not None and target.chunk.kind == "pronoun":
+            target.place = taken.people.seen_by(target.place, clause.subject)
+        elif target.place is None and target.other is None:
             target.other = taken.people.whom(target.chunk, clause.subject)
     if "stands" in taken.states:
         taken.measure(last, st.standstill(IT))
@@ -57,6 +59,8 @@ def _attach(taken: Taken) -> None:
     passes_nothing = "pass" in taken.states and all(each.amount is not None for each in places)
     fast = taken.quantity == "speed" or any(each.quantity is st.Quantity.SPEED for each in clause.measures)
     is_kept = "kept" in clause.flags
+    # "It continues at this speed": who drives at it without such a deed may drive as another one does.
+    fast |= clause.deed == st.Verb.DRIVE and any(each.kind == "kept" and "speed" in each.text for each in taken.chunks)
     if is_kept and not fast:  # "keeps a gap of 20 m"
         raise taken.left_over(last)
     is_empty = taken.quantity and not (taken.amounts or is_kept)
@@ -66,8 +70,8 @@ def _attach(taken: Taken) -> None:
         clause.deed = st.Verb.DRIVE
     if clause.subject is None and (clause.measures or clause.rates):
         raise taken.left_over(taken.chunks[0])
-    clause.measures = [_of(each, clause.subject) for each in clause.measures]
-    clause.rates = [_of(each, clause.subject) for each in clause.rates]
+    clause.measures = [_of(each, clause.subject, taken.people) for each in clause.measures]
+    clause.rates = [_of(each, clause.subject, taken.people) for each in clause.rates]
     if any(each.place is not None and each.place.partner == each.actor for each in clause.measures):
         raise taken.left_over(last)  # "it" of a conflict point with somebody, said of that one
     clause.agree()
@@ -92,12 +96,16 @@ def _find_subject(taken: Taken) -> None:
     clause.subject = taken.subject if clause.subject is None else clause.subject
 
 
-def _of(measure: st.Measure, subject: int | None) -> st.Measure:
+def _of(measure: st.Measure, subject: int | None, people: Cast) -> st.Measure:
     """Return a measure of `IT` as one of the subject."""
     actor, other = (subject if each == IT else each for each in (measure.actor, measure.other))
     assert actor is not None
     place = measure.place
     place = replace(place, of=None) if place is not None and place.of == actor else place
+    if place is not None and place.name == "conflict_point" and EGO in (place.of, actor if place.of is None else None):
+        place = replace(place, partner=people.partner(place.partner, measure.quote or people.quote))
+    if place is not None:
+        people.place = replace(place, of=actor if place.of is None else place.of)
     return replace(measure, actor=actor, other=other, place=place)
 
 

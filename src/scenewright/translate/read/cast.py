@@ -10,13 +10,16 @@ from dataclasses import dataclass, field, replace
 from typing import Any, NoReturn
 
 from scenewright.errors import UnknownWordsError
+from scenewright.program.expressions import CONFLICT_LANDMARKS
 from scenewright.program.types import EGO
 from scenewright.translate import story as st
 from scenewright.translate.phrases import OTHERWISE
 from scenewright.translate.read.chunks import Chunk, nearest_words, word_as
 
-_FURTHER = {"second", "third", "fourth"}
+_NUMERALS = set("123456789")
+_FURTHER = {"second", "third", "fourth", *_NUMERALS - {"1"}}
 NEW = "somebody new"
+FIRST = 1  # the number of the first hero, with whom the ego's conflict point is where nothing says so
 ASIDE, CAR = "set it aside", "a car of that name"
 
 
@@ -31,6 +34,7 @@ class Cast:
     assumptions: list[str] = field(default_factory=list)
     questions: list[st.Question] = field(default_factory=list)
     mentioned: list[int] = field(default_factory=list)  # in this sentence
+    named: list[Chunk] = field(default_factory=list)  # the words for people that are still to come in it, too
     subject: int | None = None  # of the last main clause
     place: st.Place | None = None  # that was spoken of last
     doer: int | None = None  # whose deed it is, while what ends it is read
@@ -57,10 +61,48 @@ class Cast:
         return others.pop()
 
     def where(self, chunk: Chunk) -> st.Place:
-        """Return the place that "it" means: the one that was spoken of last."""
+        """Return the place that "it" means: the one that was spoken of last, with whose it was."""
         if self.place is None:
             self.refuse("it is not clear which place is meant", chunk.quote)
         return self.place
+
+    def seen_by(self, place: st.Place, subject: int | None) -> st.Place:
+        """Return the place that "it" is of somebody: where two ways meet it is of both."""
+        owner, usual = place.of, FIRST if place.of == EGO else EGO
+        if owner in (None, subject) or place.name not in CONFLICT_LANDMARKS:
+            return place
+        is_its = subject == (usual if place.partner is None else place.partner)
+        return st.Place(place.name, None, owner if is_its and owner != EGO else None)
+
+    def partner(self, told: int | None, quote: st.Quote) -> int | None:
+        """Return with whom the ego's conflict point is, None for the first hero: as told, else as named nearby."""
+        if told is None:
+            near: dict[int, tuple[int, str]] = {}
+            for chunk in self.named:
+                for number in self._fitting(chunk):
+                    name = self.actors[number].name if number in self.actors else chunk.text
+                    near[number] = min(near.get(number, (len(self.text), name)), (abs(chunk.start - quote.start), name))
+            if not near and self.subject not in (None, EGO) and any(each.kind == "pronoun" for each in self.named):
+                near = {self.subject or EGO: (0, "")}
+            some = sorted(near, key=near.__getitem__) or sorted(each.id for each in self.heroes)
+            names = [near[each][1] if each in near else self.actors[each].name for each in some]
+            if len(some) > 1:
+                asked = f"The conflict point with whom is meant: {self.quote.text}"
+                answer = self.ask(f"conflict point {quote.start}", asked, names, 0, quote)
+                told = some[names.index(answer)]
+            elif some:
+                told = some[0]
+        return None if told == FIRST else told
+
+    def _fitting(self, chunk: Chunk) -> list[int]:
+        """Return which heroes a mention may mean; one that nobody was told of yet has the next number."""
+        if chunk.kind == "name":
+            return [each.id for each in self.heroes if each.name == chunk.value]
+        if chunk.kind != "actor" or chunk.value == "ego":
+            return []
+        words = {each.text.lower() for each in chunk.traits if each.kind == "quality"}
+        found = [each.id for each in self.heroes if self._fits(each, chunk, words)]
+        return found or [max(self.actors, default=0) + 1]
 
     def pair(self, chunk: Chunk) -> tuple[int, int]:
         """Return the ego and the only other one, whom "both" and "they" mean."""
@@ -115,7 +157,7 @@ class Cast:
         number = self._one_of(some, f"Who is '{chunk.text}'?", None, chunk.quote)
         if number is None:
             number = self._called(chunk, self._free_name(chunk.value, words), chunk.value)
-        self.known_by.setdefault(number, set()).update(words)
+        self.known_by.setdefault(number, set()).update(words, {chunk.value} if words & _NUMERALS else ())
         return number
 
     def _fits(self, actor: st.Actor, chunk: Chunk, words: set[str]) -> bool:
@@ -132,8 +174,13 @@ class Cast:
     def _free_name(self, name: str, words: set[str]) -> str:
         """Return a name that nobody has: that of its kind, with what describes it, with a number."""
         taken = {each.name for each in self.actors.values()}
-        described = " ".join((*sorted(words), name))
-        names = (name, described, *(f"{described} {number}" for number in range(2, len(taken) + 3)))
+        numerals = sorted(words & _NUMERALS)
+        described = " ".join((*sorted(words - _NUMERALS), name, *numerals))
+        names = (
+            *([] if numerals else [name]),
+            described,
+            *(f"{described} {number}" for number in range(2, len(taken) + 3)),
+        )
         return next(each for each in names if each not in taken)
 
     def _called(self, chunk: Chunk, name: str, kind: str) -> int:
@@ -192,6 +239,8 @@ class Cast:
         """Ask what unknown words mean: return the chunks with those that are answered, and whether some are not."""
         known, is_open = [], False
         for chunk in chunks:
+            if chunk.kind == "share":  # what changes a number is never set aside
+                self.refuse(f"'{chunk.text}' could not be understood here")
             if chunk.kind != "unknown":
                 known.append(chunk)
                 continue

@@ -36,8 +36,16 @@ _LANE = r"[A-Za-z0-9_]+(?:\.-?[A-Za-z0-9_]+)+"
 _LANES = re.compile(rf"follows? the lanes ({_LANE}(?:, {_LANE})*)")
 _NUMBERS = "zero one two three four five six seven eight nine ten eleven twelve thirteen fourteen fifteen"
 _TENS = "twenty thirty forty fifty sixty"
+# "Half a second", "a third of a g", "one and a half metres", as far as a unit follows.
+_PART = re.compile(
+    r"(?:(\w+) and (?=a\b))?(?:(an?|one|two|three)[ -])?(half|thirds?|quarters?)\b(?: of\b)?(?: an?\b)?", re.IGNORECASE
+)
+_PARTS = {"half": Fraction(1, 2), "third": Fraction(1, 3), "quarter": Fraction(1, 4)}
+_RANGE = re.compile(r"(\d+(?:\.\d+)?)(?: ?([A-Za-z]\S*))?(?:\s*[-–—]\s*| to )(?=(\d+(?:\.\d+)?))")  # "20-25 m"
+_BETWEEN = re.compile(r"between (\d+(?:\.\d+)?)() and (?=(\d+(?:\.\d+)?))", re.IGNORECASE)
 _ENDS = ".;!?"
 _QUOTES = '"“”'
+_NUMERALS = tuple("123456789")  # that tell one "hero 2" from others
 _TRAITS = ("heading", "relation", "quality", "other", "turn")
 _LONG = 8  # letters; of shorter words too many differ from another word by one letter
 _SPELLED = 4  # letters; a shorter word is another one, not one that is misspelled, and few slips are the first letter
@@ -234,10 +242,17 @@ def _described(chunks: list[Chunk]) -> list[Chunk]:
             is_new = first > 0 and (found[first - 1].kind, found[first - 1].value) == ("det", "a")
             chunk = replace(chunk, traits=tuple(found[first:]), is_new=is_new)
             del found[first - is_new :]
+        if chunk.kind == "no unit" and chunk.text in _NUMERALS and found and found[-1].kind == "actor":  # "hero 2"
+            traits = (*found[-1].traits, replace(chunk, kind="quality"))
+            if found[-1].value != "ego":
+                chunk = replace(found.pop(), end=chunk.end, traits=traits)
         if chunk.kind == "name" and found and found[-1].kind == "actor":  # "the car 'blue'"
             chunk = replace(chunk, traits=(found.pop(),))
         found.append(chunk)
     another = {each for each in found if (each.kind, each.value) == ("det", "a") and len(each.text) > 3}
+    for at, each in enumerate(found):
+        if each.kind == "or bound" and found[at - 1].kind == "amount":  # "5 m/s or more"
+            found[at - 1 : at + 1] = [replace(each, kind="bound"), found[at - 1]]
     kept = [each for each in found if each in another or each.kind not in ("filler", "det")]
     return [replace(each, kind="unknown") if each in another else each for each in kept]  # "another stop line"
 
@@ -250,8 +265,12 @@ def _chunks(text: str) -> Iterator[Chunk]:
     end = 0
     for index, token in enumerate(tokens):
         if token.start() >= end:
-            chunk = _lanes(text, token.start()) or _amount(text, token) or _phrase(text, tokens, words, index)
-            chunk = chunk or _plain(token)
+            if two := _range(text, token) or _numbered(token):
+                yield from two
+                end = two[-1].end
+                continue
+            chunk = _lanes(text, token.start()) or _part(text, token) or _amount(text, token)
+            chunk = chunk or _phrase(text, tokens, words, index) or _plain(token)
             end = chunk.end
             slipped = [each for at, each in slips.items() if chunk.start <= tokens[at].start() < end]
             yield replace(chunk, slips=tuple(slipped)) if slipped else chunk
@@ -260,6 +279,56 @@ def _chunks(text: str) -> Iterator[Chunk]:
 def _lanes(text: str, at: int) -> Chunk | None:
     match = _LANES.match(text, at)
     return None if match is None else Chunk("lanes", match[1], at, match.end(), match[0])
+
+
+def _range(text: str, token: re.Match[str]) -> list[Chunk]:
+    """Return "20-25 m" and "between 20 and 25 m" as at least 20 m and at most 25 m; nothing where no range is here."""
+    found = _RANGE.match(text, token.start()) or _BETWEEN.match(text, token.start())
+    high = None if found is None else _amount(text, _token_at(text, found.end()))
+    if found is None or high is None or high.amount is None:
+        return []
+    is_change = text[: token.start()].rstrip().lower().endswith("from") or (found[2] and " to " in found[0])
+    if is_change or found[2] not in (None, "", high.amount.unit) or Fraction(found[1]) >= Fraction(found[3]):
+        return []
+    start, end, said = found.start(1), found.end(1), found[1]
+    low = replace(high.amount, value=Fraction(said), quote=Quote(start, end, said))
+    words = [Chunk(kind, value, at, at, said) for kind, value, at, said in (
+        ("bound", ">=", start, "at least"), ("joint", "and", high.start, "and"),
+        ("bound", "<=", high.start, "at most"))]  # fmt: skip
+    return [words[0], Chunk("amount", said, start, end, said, low), *words[1:], high]
+
+
+def _numbered(token: re.Match[str]) -> list[Chunk]:
+    """Return "POV2" as "POV 2"."""
+    said, at = token.group(), token.end() - 1
+    known = vocabulary().phrases.get(said[:-1].lower(), ()) if token["word"] and said[-1] in _NUMERALS else ()
+    kinds = [(kind, value) for words, kind, value in known if len(words) == 1]
+    if not kinds or kinds[0] == ("actor", "ego") or kinds[0][0] != "actor":
+        return []
+    return [Chunk(*kinds[0], token.start(), at, said[:-1]), Chunk("no unit", said[-1], at, at + 1, said[-1])]
+
+
+def _token_at(text: str, at: int) -> re.Match[str]:
+    found = _TOKEN.match(text, at)
+    assert found is not None
+    return found
+
+
+def _part(text: str, token: re.Match[str]) -> Chunk | None:
+    """Return a part of a unit as an amount: "half a second"; None where it is none of a unit: "half as fast"."""
+    known = vocabulary()
+    match = _PART.match(text, token.start())
+    unit = None if match is None else known.unit_pattern.match(text, match.end())
+    if match is None or unit is None:
+        return None
+    whole, count, part = (each and each.lower() for each in match.groups())
+    number = Fraction(whole) if whole and whole.isdigit() else known.numbers.get(whole or "zero")
+    if number is None or (part != "half" and count is None):  # "the third m"
+        return None
+    number += known.numbers.get(count or "", Fraction(1)) * _PARTS[part.removesuffix("s")]
+    symbol = known.units[unit[1].lower() if unit[1].lower() in known.units else unit[1]]
+    quote = Quote(match.start(), unit.end(), text[match.start() : unit.end()])
+    return Chunk("amount", str(number), quote.start, quote.end, quote.text, Amount(number, symbol, None, quote))
 
 
 def _amount(text: str, match: re.Match[str]) -> Chunk | None:

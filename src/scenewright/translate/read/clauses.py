@@ -257,6 +257,8 @@ class Taken:
             self.clause.times.setdefault("after the start", []).append((op, amount))
             self.at += 2
         else:
+            both = [self.peek(back)[0] for back in (-1, -2, -3)] == ["bound", "joint", "amount"]
+            self.ranges |= {self.at} if both else set()  # "at least 20 m and at most 25 m before it"
             self.amounts.append((self.at, op, chunk))
 
     def _side(self, chunk: Chunk) -> None:
@@ -281,6 +283,8 @@ class Taken:
             self.targets.append(Target(self.at - 1, side, self.chunks[self.at], _CONFLICT))
         elif side == "to" and kind in ("amount", "bound", "no unit") and self.clause.deed is not None:
             self.clause.flags.add("to")
+        elif side == "to" and kind == "amount" and self.clause.phase is None and not self.amounts:
+            raise self.left_over(chunk)  # "but only to 10 m/s"
         elif not (self.road(side) or kind in _AFTER.get(side, ()) or (side, kind, value) in _INITIAL):
             raise self.left_over(chunk)
 

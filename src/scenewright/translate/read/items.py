@@ -18,7 +18,15 @@ from scenewright.translate.read.cast import Cast
 from scenewright.translate.read.chunks import Chunk
 from scenewright.translate.read.clauses import OPERATORS, PEOPLE, Clause
 
-LINKS = ("when", "until", "no later than", "from")
+ORDERS = ("before", "after", "no later than", "earlier than", "no earlier than")
+LINKS = ("when", "until", "from", *ORDERS[2:])
+# "No later than 2 s after" and "... before": one side is held, where "at most 2 s after" is after it, too.
+ONE_SIDE: dict[tuple[str, str], st.Operator] = {
+    ("no later than", "after"): "<=", ("earlier than", "after"): "<",
+    ("no later than", "before"): ">=", ("earlier than", "before"): ">",
+    ("no earlier than", "after"): ">=", ("no earlier than", "before"): "<=",
+}  # fmt: skip
+Margin = tuple[st.Operator, st.Amount | None]
 _PREDICATES = {
     "be", "state", "event", "phase", "deed", "turn", "mood", "heading", "origin", "quantity", "amount", "lanes",
 }  # fmt: skip
@@ -37,12 +45,31 @@ _JOINTS: dict[str, tuple[Literal["and", "or", "if"], str]] = {  # what a word ma
 
 @dataclass(slots=True)
 class Segment:
-    """A stretch of a sentence behind one link; `margin` is an amount of time that stood before the link."""
+    """A stretch of a sentence behind one link; `margins` are amounts of time that stood before the link."""
 
     link: str
     chunks: list[Chunk] = field(default_factory=list)
-    margin: tuple[st.Operator, st.Amount] | None = None
+    margins: list[Margin] = field(default_factory=list)
     is_first: bool = False  # it stands in front of what happens
+    lasts: bool = False  # it is so as long as something is done: "While ..."
+    side: str = ""  # on which side of a moment it is until which something lasts: "until 1 s after the ego ..."
+
+
+def parts_of(chunks: list[Chunk]) -> list[list[Chunk]]:
+    """Cut a sentence with two moments, or in which something lasts until one, and then something else is done."""
+    for at in range(1, len(chunks)):
+        before = [chunk.value for chunk in chunks[max(at - 2, 0) : at]]
+        acts = any(chunk.kind == "deed" for chunk in chunks[:at])
+        if (chunks[at].kind, chunks[at].value) == ("link", "when") and acts and before == [",", "and"]:
+            return [chunks[: at - 2], *parts_of(chunks[at:])]
+    links = [chunk.value.partition(" ")[0] if chunk.kind == "link" else "" for chunk in chunks]
+    until = links.index("until") if "until" in links else len(links)
+    if "then" not in links[until:] or any(chunk.value == "if" or chunk.kind == "ego's order" for chunk in chunks):
+        return [chunks]
+    then = links.index("then", until)
+    if all(chunk.kind != "comma" for chunk in chunks[max(until, then - 2) : then]):
+        return [chunks]  # "until the ego has passed it and then turns": who does is not clear
+    return [chunks[:then], *parts_of(chunks[then:])]
 
 
 def segments_of(chunks: list[Chunk], is_led: bool = False) -> list[Segment]:
@@ -54,21 +81,38 @@ def segments_of(chunks: list[Chunk], is_led: bool = False) -> list[Segment]:
     opens = [(chunk.kind, chunk.value) for chunk in chunks[:2]] + [("", "")] * 2
     fronted = opens[0] == ("side", "with") and opens[1][0] in PEOPLE  # "With the ego 12 m from ...", "At a gap of 12 m"
     fronted |= opens[0] in (("side", "with"), ("side", "at")) and opens[1][0] == "quantity"
-    if (fronted or opens[0] == ("joint", "if")) and not is_led:
-        found, chunks = [*found, Segment("when")], chunks[1:]
+    lasts = opens[0] == ("joint", "and") and chunks[0].text.lower() == "while"
+    timed = [chunk.value for chunk in chunks[1:4] if chunk.kind in ("side", "link")][:2] == ["after", "the start"]
+    if timed and opens[0][0] in ("amount", "bound"):  # "5 s after the start, the hero ..."
+        found.append(Segment("when"))
+    elif (fronted or lasts or opens[0] == ("joint", "if")) and not is_led:
+        found, chunks = [*found, Segment("when", lasts=lasts)], chunks[1:]
     for index, chunk in enumerate(chunks):
         orders = chunk.kind == "side" and chunk.value in ("before", "after")
-        if orders and _is_clause(chunks[index + 1 :], found[-1].chunks):
-            found.append(Segment(chunk.value, margin=_margin(found[-1].chunks)))
+        told = found[-2 if found[-1].link in ORDERS[2:] else -1].chunks
+        if orders and _is_clause(chunks[index + 1 :], told):
+            margins = _margins(found[-1].chunks)
+            one_side = ONE_SIDE.get((found[-1].link, chunk.value))
+            if found[-1].chunks or not margins or found[-1].link in ("main", "when"):
+                found.append(Segment(chunk.value, margins=margins))
+            elif found[-1].link == "until":
+                found[-1].margins, found[-1].side = margins, chunk.value
+            elif one_side is not None and [op for op, _ in margins] == ["=="]:
+                found[-1] = Segment(chunk.value, margins=[(one_side, margins[0][1])])
+            else:
+                raise UnknownWordsError("it is not clear how much before or after this is", found=chunk.text)
         elif chunk.kind == "link" and chunk.value in LINKS:
-            if found[-1].chunks and found[-1].chunks[-1].kind == "bound":  # "exactly when"
+            if found[-1].chunks and (found[-1].chunks[-1].kind, found[-1].chunks[-1].value) == (
+                "bound",
+                "==",
+            ):  # "exactly when"
                 found[-1].chunks.pop()
             found.append(Segment(chunk.value))
         else:
             found[-1].chunks.append(chunk)
     for before, segment in pairwise(found):  # "it passes the stop line before the ego (does)"
         if segment.link in ("before", "after") and all(chunk.kind in (*PEOPLE, "mood") for chunk in segment.chunks):
-            event = next(at for at, chunk in enumerate(before.chunks) if chunk.kind == "event")
+            event = max(at for at, chunk in enumerate(before.chunks) if chunk.kind == "event")
             segment.chunks = [*segment.chunks[:1], *before.chunks[event:]]
     for segment in found:
         while segment.chunks and segment.chunks[-1].text in (",", "and") and segment.link != "when":
@@ -85,14 +129,26 @@ def _is_clause(chunks: Sequence[Chunk], before: Sequence[Chunk]) -> bool:
     return does_the_same or any(kind in _PREDICATES for kind in takewhile(lambda kind: kind != "possessive", kinds))
 
 
-def _margin(chunks: list[Chunk]) -> tuple[st.Operator, st.Amount] | None:
-    """Take an amount of time off the end of a segment: ``the ego turns at least 2 s | after ...``."""
-    amount = chunks[-1].amount if chunks else None
-    if amount is None or amount.dimension != "time":
-        return None
-    chunks.pop()
-    is_bound = bool(chunks) and chunks[-1].kind == "bound" and chunks[-1].value in OPERATORS
-    return OPERATORS[chunks.pop().value] if is_bound else "==", amount
+def margins_of(found: Sequence[Margin]) -> list[Margin]:
+    """Return how much later something is: what is at most 2 s after something is not before it, either."""
+    is_near = found and all(op in ("<", "<=") for op, _ in found)
+    return [*found, (">=", None)] if is_near else [*found]
+
+
+def _margins(chunks: list[Chunk]) -> list[Margin]:
+    """Take amounts of time off the end of a segment: ``the ego turns at least 2 s | after ...``."""
+    found: list[Margin] = []
+    if len(chunks) > 3 and [each.value for each in chunks[-4::2]] == ["between", "and"]:
+        at_least, at_most = (replace(chunks[-1], kind="bound", value=value) for value in (">=", "<="))
+        chunks[-4:] = [at_least, chunks[-3], chunks[-2], at_most, chunks[-1]]
+    while chunks and (amount := chunks[-1].amount) is not None and amount.dimension == "time":
+        chunks.pop()
+        bound = chunks.pop().value if chunks and chunks[-1].kind == "bound" else "=="
+        found.insert(0, (OPERATORS["<=" if bound == "falls" else bound], amount))
+        if not chunks or chunks[-1].value != "and":
+            break
+        chunks.pop()
+    return margins_of(found)
 
 
 def parted(chunks: list[Chunk]) -> tuple[list[Chunk], list[Chunk]]:
@@ -104,8 +160,9 @@ def parted(chunks: list[Chunk]) -> tuple[list[Chunk], list[Chunk]]:
             is_aside = following == "relative"
             if not is_aside and (not was_aside or following in PEOPLE):  # "the ego, which turns left, is 10 m ..."
                 commas.append(index)
-    people = (at for at in range(1, len(chunks) - 1) if chunks[at].kind in PEOPLE and chunks[at + 1].kind == "deed")
-    if not commas and (begins := next(people, 0)):  # "once the gap is 25 m the truck brakes"
+    people = (at for at in range(1, len(chunks) - 1) if chunks[at].kind in PEOPLE and chunks[at + 1].kind == "deed"
+              and (not commas or (at < commas[0] and chunks[at - 1].kind in ("place", "amount"))))  # fmt: skip
+    if begins := next(people, 0):  # "once the gap is 25 m the truck brakes"
         return chunks[:begins], chunks[begins:]
     if not commas:
         raise UnknownWordsError("it is not clear where the moment ends", fix="put a comma before what happens")
@@ -151,8 +208,11 @@ class _Items:
 
     def is_joint(self, value: str) -> bool:
         chunk = self.chunks[self.at] if self.at < len(self.chunks) else None
-        is_it = chunk is not None and chunk.value == value and chunk.kind in ("joint", "link")
-        return is_it and "turn" not in self.chunks[self.at].text  # "after turning" says more than "then"
+        if chunk is None or chunk.kind not in ("joint", "link"):
+            return False
+        # "After stopping, ..."; "after turning" says more than "then".
+        after = chunk.value.startswith(f"{value} ") and "turn" not in chunk.value
+        return chunk.value == value or (after and [each.kind for each in self.chunks[self.at + 1 :][:1]] == ["comma"])
 
     def one(self, inside: tuple[str, ...]) -> Clause:
         """Return the item that begins here; `inside` are the words that end it."""
@@ -244,7 +304,7 @@ class _Items:
 
     def _begins(self, at: int) -> bool:
         """Whether a clause begins here."""
-        skipped = (("joint", "and"), ("link", "then"), ("link", "same time"), ("comma", ","))
-        while at < len(self.chunks) and (self.chunks[at].kind, self.chunks[at].value) in skipped:
+        skipped = (("joint", "and"), ("link", "then"), ("link", "same"), ("comma", ","))
+        while at < len(self.chunks) and (self.chunks[at].kind, self.chunks[at].value.split(" ")[0]) in skipped:
             at += 1
         return at < len(self.chunks) and self.chunks[at].kind in _BEGINS_A_CLAUSE

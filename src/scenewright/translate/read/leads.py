@@ -6,28 +6,30 @@ What happens at these is none of its business.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from collections.abc import Set as AbstractSet
+from collections.abc import Sequence, Set
 from dataclasses import dataclass, field
+from itertools import zip_longest
 
 from scenewright.translate import story as st
 from scenewright.translate.phrases import DOES
 from scenewright.translate.read.chunks import Chunk
 from scenewright.translate.read.clauses import OPERATORS, PEOPLE, Clause
+from scenewright.translate.read.items import Margin, margins_of
 from scenewright.translate.read.narrative import CHANGES, Doing, Narrative
 
-_WORDS = ("then", "then left", "then right", "at once", "later", "meanwhile", "start", "same time")
-Delay = tuple[st.Operator, st.Amount]
+_WORDS = ("then", "at once", "later", "meanwhile", "start", "same time")
+_TURNS = ("turn", "turn left", "turn right")
+_LATER = {"then", "later"}
 
 
 @dataclass(slots=True)
 class Leads:
-    """What says when a sentence is: words, after which turn, how much later; and the chunks that are left of it."""
+    """What says when a sentence is: words, after which deed of its own, how much later; and the chunks left of it."""
 
     chunks: list[Chunk]
     words: set[str] = field(default_factory=set)
-    turned: str = ""
-    delay: Delay | None = None
+    own: str = ""
+    delay: Margin | None = None
 
 
 def leads_of(story: Narrative, chunks: Sequence[Chunk]) -> Leads:
@@ -36,27 +38,31 @@ def leads_of(story: Narrative, chunks: Sequence[Chunk]) -> Leads:
     found.delay, chunks = _delay_of(chunks)
     found.words |= {"then"} if found.delay is not None else set()
     joined = any(chunk.value == "if" for chunk in chunks)  # its "then" is another
-    for chunk in chunks:
+    for chunk, following in zip_longest(chunks, chunks[1:]):
         kept = found.chunks
         free = not kept or (not joined and kept[-1].kind in ("be", "mood", *PEOPLE) and chunk.value != "start")
-        if chunk.kind == "link" and chunk.value in _WORDS and free:
-            word, _, turned = chunk.value.partition("then ")
-            if turned and found.turned not in ("", turned):
-                story.refuse("two turns are told at once", chunk.quote)
-            found.turned = found.turned or turned
+        word, _, own = chunk.value.partition("then ")
+        # "After braking to 5 m/s" says more than that it did.
+        whole = own in ("", *_TURNS) or (following is not None and following.kind in ("comma", *PEOPLE))
+        if chunk.kind == "link" and (own or word in _WORDS) and free and whole:
+            if own and found.own not in ("", own):
+                story.refuse("two deeds are told at once", chunk.quote)
+            found.own = found.own or own
             found.words.add(word or "then")
+            found.words |= {"that"} if chunk.text.lower().startswith(("at that", "at this")) else set()
         elif kept or chunk.kind != "comma":
             kept.append(chunk)
     return found
 
 
-def _delay_of(chunks: Sequence[Chunk]) -> tuple[Delay | None, Sequence[Chunk]]:
+def _delay_of(chunks: Sequence[Chunk]) -> tuple[Margin | None, Sequence[Chunk]]:
     """Take "2 s later", "2 s after that" and "after 2 s" off the front."""
     first = [each for each in chunks[:4] if each.kind != "comma"]
     kinds = [(each.kind, each.value) for each in first] + [("", "")] * 3
     bound = OPERATORS.get(kinds[0][1]) if kinds[0][0] == "bound" else None
     at = 1 if bound else 0
-    if kinds[at][0] == "amount" and kinds[at + 1] in (("link", "later"), ("link", "then")):
+    kind, value = kinds[at + 1]
+    if kinds[at][0] == "amount" and kind == "link" and (value == "later" or value.startswith("then")):
         amount, taken = first[at].amount, first[: at + 2]
     elif kinds[0] == ("side", "after") and kinds[1][0] == "amount" and kinds[2][0] in PEOPLE:
         amount, taken = first[1].amount, first[:2]
@@ -67,25 +73,51 @@ def _delay_of(chunks: Sequence[Chunk]) -> tuple[Delay | None, Sequence[Chunk]]:
     return (bound or "==", amount), [each for each in chunks if each not in taken]
 
 
-def same_time(story: Narrative, pending: int | None) -> int | None:
-    """Return the moment of what was told last: the one that waits for what happens, or when a deed began."""
-    if pending is not None:
+def same_time(story: Narrative, pending: int | None, words: Set[str]) -> int | None:
+    """Return the moment of what was told last: the one that waits for what happens, or when a deed began.
+
+    "At that moment" may be at its end, where that was told.
+    """
+    if pending is not None or not story.doings:
         return pending
-    return story.doings[-1].begins if story.doings else None
+    last = story.doings[-1]
+    if "that" in words and (last.ends is not None or last.rests):
+        name, (_, begin, finish) = story.actor(last.actor).name, DOES[last.verb]
+        ways = [f"when {name} begins to {begin}", f"when {name} finishes {finish}"]
+        asked = f"When is this: {story.quote.text}"
+        if story.ask(f"moment {story.quote.start}", asked, ways, 0, story.quote) == ways[1]:
+            return story.finish(last)
+    return last.begins
+
+
+def last_of(story: Narrative, actor: int | None) -> Doing | None:
+    """Return what somebody does last so far."""
+    return next((each for each in reversed(story.doings) if each.actor == actor), None)
 
 
 def told_before(story: Narrative, clause: Clause) -> Doing | None:
     """Return the deed that a clause tells once more: nobody brakes, then brakes, unless a word says so."""
-    own = next((each for each in reversed(story.doings) if each.actor == clause.subject), None)
+    own = last_of(story, clause.subject)
     verb = st.Verb.BRAKE if clause.deed == "stop" else clause.deed
-    return own if own is not None and own.verb == verb and verb in CHANGES and clause.ordinal == 0 else None
+    if own is None or clause.ordinal:
+        return None
+    if own.turns and verb in CHANGES and not clause.says_more_than("deed", "rates"):
+        ways = ["after its turn", "while it turns"]
+        if (
+            story.ask(f"turn {clause.quote.start}", f"When is this: {clause.quote.text}", ways, 0, clause.quote)
+            == ways[1]
+        ):
+            own.verb = verb or own.verb
+            return own
+    is_open = own.ends is None and not own.rests and own.verb in (st.Verb.DRIVE, st.Verb.SPEED_UP)
+    passes = verb == st.Verb.DRIVE and "event" in clause.notes and is_open  # "speeds up. It passes it before the ego"
+    return own if passes or (own.verb == verb and verb in CHANGES) else None
 
 
 def moment_led_to(
     story: Narrative,
     clause: Clause,
-    words: AbstractSet[str],
-    delay: Delay | None,
+    leads: Leads,
     pending: int | None,
     is_tied: bool,
 ) -> int | None:
@@ -93,18 +125,24 @@ def moment_led_to(
 
     Who acts after somebody else did, and is not tied to that by a word, would be at it from the start.
     """
-    last = story.doings[-1] if story.doings else None
+    last, words, delay = story.doings[-1] if story.doings else None, leads.words, leads.delay
     if "same time" in words:
         if last is None:
             story.refuse("it is not clear at the same time as what", fix="begin it with 'When ...,'")
-        return last.begins
-    acts = any(each.actor == clause.subject for each in story.doings)
-    is_new = last is not None and not acts and not is_tied
-    if delay is not None or ("then" in words and is_new):
-        after = pending if pending is not None else _after(story, last, clause, delay is not None)
-        op, margin = delay or (">", None)
+        return same_time(story, None, words)
+    own = last_of(story, clause.subject)
+    if leads.own and not _did(own, leads.own):
+        story.refuse("it was not told that it did this before")
+    is_new = last is not None and own is None and not is_tied
+    follows = last is not None and (last is not own or story.since is not None) and not leads.own
+    if delay is not None or (words & _LATER and follows):
+        told = None if leads.own else story.since if pending is None else pending
+        after = _after(story, own if leads.own else last, clause, leads) if told is None else told
+        if after is None:
+            return None
         moment = story.new_moment()
-        story.orders.append(st.Order(after, moment, op, margin, story.quote))
+        for op, margin in margins_of([delay] if delay else []) or [(">", None)]:
+            story.orders.append(st.Order(after, moment, op, margin, story.quote))
         return moment
     if is_new and clause.deed in (*CHANGES, "stop") and "start" not in words:
         fix = "begin it with 'When ...,', 'At the same time,' or 'Then'"
@@ -112,18 +150,33 @@ def moment_led_to(
     return None
 
 
-def _after(story: Narrative, last: Doing | None, clause: Clause, is_delayed: bool) -> int:
-    """Return the moment that "then" and "2 s later" count from: the end of a deed, or its beginning."""
+def _did(own: Doing | None, deed: str) -> bool:
+    """Whether somebody's last deed is the one that "after stopping" and the like speak of."""
+    if deed in _TURNS:
+        return True
+    stops = own is not None and (own.rests or own.verb == st.Verb.STAND or own.ends is not None)
+    return own is not None and (stops if deed == "stop" else own.verb == deed)
+
+
+def _after(story: Narrative, last: Doing | None, clause: Clause, leads: Leads) -> int | None:
+    """Return the moment that "then" and "2 s later" count from: the end of a deed, or its beginning; None: its own."""
     if last is None:
         return st.START
-    if last.ends is None and not last.rests:
-        return last.begins
-    if last.actor == clause.subject and not is_delayed:
+    if last.actor == clause.subject and (leads.own or leads.delay is None):
         return story.finish(last)
-    name, (_, begin, finish) = story.actor(last.actor).name, DOES.get(last.verb, ("", last.verb, last.verb))
-    ways = [f"after {name} finishes {finish}", f"after {name} begins to {begin}"]
+    ways: dict[str, tuple[Doing, bool]] = {}  # the deed, and whether its end
+    if last.ends is not None or last.rests:
+        ways[f"after {story.actor(last.actor).name} finishes {DOES[last.verb][2]}"] = last, True
+    ways[f"after {story.actor(last.actor).name} begins to {DOES[last.verb][1]}"] = last, False
     # How much later somebody else reacts is told from what it may see first.
-    usual = ways[is_delayed and last.actor != clause.subject]
-    asked = f"When is this: {story.quote.text}"
-    told = story.ask(f"then {story.quote.start}", asked, ways, ways.index(usual), story.quote)
-    return story.finish(last) if told == ways[0] else last.begins
+    default = len(ways) - 1 if leads.delay is not None and last.actor != clause.subject else 0
+    own = last_of(story, clause.subject)
+    if own is not None and own is not last:
+        ways[f"after {story.actor(own.actor).name} finishes {DOES[own.verb][2]}, whatever others do"] = own, True
+    if len(ways) > 1:
+        asked = f"When is this: {story.quote.text}"
+        told = story.ask(f"then {story.quote.start}", asked, [*ways], default, story.quote)
+    deed, is_end = ways[told if len(ways) > 1 else next(iter(ways))]
+    if deed is own and own is not last and leads.delay is None:
+        return None
+    return story.finish(deed) if is_end else deed.begins

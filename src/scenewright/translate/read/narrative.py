@@ -17,6 +17,7 @@ from scenewright.program.manner import USUAL, Manner, manner_of, unit_of
 from scenewright.program.types import DEFAULT_MAP, EGO, Parameter
 from scenewright.translate import story as st
 from scenewright.translate.compile import DRIVEN
+from scenewright.translate.phrases import ORDINALS
 from scenewright.translate.read.cast import Cast
 from scenewright.translate.read.clauses import Clause
 from scenewright.units import UNITS, Unit, unit_of_name
@@ -44,6 +45,7 @@ class Doing:
     lasts: list[tuple[st.Operator, st.Amount]] = field(default_factory=list)  # how long
     rests: bool = False  # no end is told: by custom it comes to a standstill
     reached: list[st.Measure] = field(default_factory=list)  # what is so at its end, whichever that is
+    turns: bool = False  # it is told as a turn
 
 
 @dataclass(slots=True)
@@ -57,6 +59,7 @@ class Narrative(Cast):
     orders: list[st.Order] = field(default_factory=list)
     holds: list[st.Hold] = field(default_factory=list)
     pending: int | None = None  # a moment that the last sentence told, at which nobody does anything yet
+    since: int | None = None  # a moment that was told after the last deed, and waits for nothing
     awaits: st.Quote | None = None  # the sentence that told nothing but a moment: what happens then must follow
     kept: list[tuple[int, st.Quote]] = field(default_factory=list)  # who keeps the speed that it has at the start
     courtesies: list[tuple[int | None, str, st.Quote]] = field(default_factory=list)  # who yields, or does not
@@ -170,7 +173,7 @@ class Narrative(Cast):
         told = self.moments[moment]
         self.moments[moment] = replace(told, conditions=tuple(dict.fromkeys((*told.conditions, *conditions))))
 
-    def _moment_with(self, conditions: Sequence[st.Condition], one: bool = False) -> int | None:
+    def moment_with(self, conditions: Sequence[st.Condition], one: bool = False) -> int | None:
         """Return the moment that is known by an event among these conditions, by any `one` of them, or by all."""
         for number, moment in enumerate(self.moments[1:], start=1):
             own = moment.conditions
@@ -203,7 +206,7 @@ class Narrative(Cast):
         known = {self.event(item) for item in events}
         if len(known) > 1:
             self.refuse("two moments are told as one")
-        moment = next(iter(known), self._moment_with(conditions))
+        moment = next(iter(known), self.moment_with(conditions))
         moment = self.new_moment() if moment is None else moment
         self.add(moment, conditions)
         for item in items:
@@ -232,7 +235,7 @@ class Narrative(Cast):
             return self.finish(doing)
         if not clause.measures or clause.says_more_than("measures", "times"):
             self.refuse("this is no event", clause.quote)
-        moment = self._moment_with(clause.measures, one=True)
+        moment = self.moment_with(clause.measures, one=True)
         if moment is not None:
             self.add(moment, clause.measures)
             return moment
@@ -264,7 +267,7 @@ class Narrative(Cast):
         """Let somebody begin a deed at a moment, or where the last one ended."""
         if actor == EGO:
             self.refuse("the ego is driven by the policy under test: say what the others do")
-        before = next((doing for doing in reversed(self.doings) if doing.actor == actor), None)
+        before, self.since = next((doing for doing in reversed(self.doings) if doing.actor == actor), None), None
         if before is None:
             moment = self.new_moment() if moment is None and "then" in leads else moment
             if moment is not None and moment != st.START:
@@ -284,11 +287,19 @@ class Narrative(Cast):
 
     def _go_on(self, before: Doing, verb: str, moment: int | None, leads: set[str]) -> int:
         """Return where a deed begins after one whose end is known; what lies between is standing or driving on."""
+        if (
+            before.rests and before.ends is None and (verb == st.Verb.BRAKE or "passes" in leads)
+        ):  # who stands does neither
+            ways = ["for a while", "to a standstill"]
+            quote = before.quote or self.quote
+            asked = f"How far does {self.actor(before.actor).name} brake: {quote.text}"
+            before.rests = self.ask(f"rests {quote.start}", asked, ways, 0, quote) == ways[1]
         ended = self.finish(before)
         stands = st.standstill(before.actor) in self.moments[ended].conditions
         sets_off = verb in (st.Verb.DRIVE, st.Verb.SPEED_UP) and before.verb != st.Verb.STAND
         waits = stands and sets_off and "at once" not in leads
         waits |= verb == before.verb and bool(leads & {"again", "later"})  # "it brakes to 5 m/s. Later it brakes ..."
+        waits |= "apart" in leads and not (stands and verb == st.Verb.STAND)
         if moment == ended or (moment is None and not waits):
             return ended
         between = Doing(before.actor, st.Verb.STAND if stands else st.Verb.DRIVE, ended, quote=before.quote)
@@ -302,7 +313,14 @@ class Narrative(Cast):
         """Return the deed that an event speaks of: ``the hero begins to brake for the second time``."""
         verb = st.Verb.BRAKE if clause.deed == "stop" else clause.deed
         same = [each for each in self.doings if each.actor == clause.subject and each.verb == verb]
-        return same[clause.ordinal] if clause.ordinal < len(same) else None
+        if clause.phase == "finishes" or clause.ordinal:
+            return same[clause.ordinal] if clause.ordinal < len(same) else None
+        begun = [each for each in same if each.begins != st.START] or same
+        if len(begun) < 2 or clause.phase is not None:
+            return next(iter(begun), None)
+        ways = [f"for the {ORDINALS[same.index(each)]} time" for each in begun]
+        asked, last = f"Which time is meant: {clause.quote.text}", len(ways) - 1
+        return begun[ways.index(self.ask(f"time {clause.quote.start}", asked, ways, last, clause.quote))]
 
 
 def steady(actor: int, quote: st.Quote) -> st.Measure:

@@ -16,13 +16,13 @@ from scenewright.errors import Span, TranslationError
 from scenewright.program.types import EGO
 from scenewright.translate import story as st
 from scenewright.translate.compile import DRIVEN, refused_deed, refused_kind
+from scenewright.translate.read.acts import acts_of, lasting
 from scenewright.translate.read.chunks import Chunk, sentences
-from scenewright.translate.read.clauses import Clause, agree, is_upper
-from scenewright.translate.read.items import Segment, items_of, parted, segments_of
-from scenewright.translate.read.leads import leads_of, moment_led_to, same_time, told_before
-from scenewright.translate.read.narrative import COURTESIES, REFRAINS, Doing, Narrative, steady, take_labels
+from scenewright.translate.read.clauses import PEOPLE, Clause, agree, is_upper
+from scenewright.translate.read.items import ORDERS, Margin, Segment, items_of, parted, parts_of, segments_of
+from scenewright.translate.read.leads import Leads, last_of, leads_of, moment_led_to, same_time, told_before
+from scenewright.translate.read.narrative import CHANGES, Doing, Narrative, steady, take_labels
 
-_ORDERS = ("before", "after", "no later than")
 _HOW: dict[str, st.How] = {"always": "always", "never": "never", "at some time": "at some time"}
 _SAYS_NOTHING = {"unknown", "comma", "harmless", "again", "be", "joint", "quality", "name", "mood", "other"}
 _COMMENT = {*_SAYS_NOTHING, "comment", "actor", "relative", "yields", "insists", "refrains", "order", "side", "link"}
@@ -40,13 +40,18 @@ def read(text: str, answers: Mapping[str, str] | None = None, name: str = "descr
             narrative.asides.append(narrative.quote)
             continue
         chunks = [chunk for chunk in chunks if chunk.kind not in ("harmless", "again")]
-        sentence = _Sentence(narrative, chunks, narrative.pending, {"again"} & kinds)
-        narrative.pending = None
+        is_open = False
         try:
-            sentence.read()
+            for part in parts_of(chunks):
+                sentence = _Sentence(narrative, part, narrative.pending, {"again"} & kinds)
+                narrative.pending = None
+                try:
+                    sentence.read()
+                finally:
+                    is_open |= sentence.is_open
             narrative.settle()
         except TranslationError as error:
-            if sentence.is_open:
+            if is_open:
                 continue  # it is asked about first
             told = _unknown_to_programs(chunks) or error
             told.place = told.place or Where(name, text, narrative.quote.span)
@@ -65,14 +70,16 @@ class _Sentence:
     chunks: list[Chunk]
     pending: int | None  # a moment that was told just before, and nobody did anything at it
     leads: set[str] = field(default_factory=set)
-    delay: tuple[st.Operator, st.Amount] | None = None  # after what was told last: "2 s later"
+    delay: Margin | None = None  # after what was told last: "2 s later"
     moment: int | None = None  # that it tells
-    turned: str = ""
+    own: str = ""  # the deed of its own that it comes after
+    lasting: list[st.Condition] = field(default_factory=list)  # what is so as long as it is done
     is_open: bool = False  # a word in it must be asked about first
 
     def read(self) -> None:
         self.story.mentioned, self.story.doer = [], None
         self.chunks, self.is_open = self.story.known_words(self.chunks)
+        self.story.named = [chunk for chunk in self.chunks if chunk.kind in PEOPLE]
         how = next((chunk for chunk in self.chunks if chunk.kind == "link" and chunk.value in _HOW), None)
         if self.chunks and self.chunks[0].kind == "ego's order":
             self._ego_order()
@@ -80,7 +87,7 @@ class _Sentence:
             self._hold(how)
         elif self.chunks:
             said = leads_of(self.story, self.chunks)
-            self.chunks, self.turned, self.delay = said.chunks, said.turned, said.delay
+            self.chunks, self.own, self.delay = said.chunks, said.own, said.delay
             self.leads |= said.words
             known, is_later = len(self.story.moments), bool(self.leads & {"then", "later"})
             self._cut()
@@ -96,13 +103,33 @@ class _Sentence:
             rest[0].is_first = True
         later = next((each for each in rest if each.link == "when"), None)
         rest = [each for each in rest if each is not later]
-        when = None
+        when, is_while, known = None, False, len(story.doings)
         if later is not None and not main.chunks:  # the moment stands in front, and is read first
             if any(chunk.kind in ("comma", "deed") for chunk in later.chunks):
                 later.chunks, main.chunks = parted(later.chunks)
-            when, later = items_of(story, later.chunks), None
+            when, is_while, later = items_of(story, later.chunks), later.lasts, None
+            self.lasting = self._lasting(when) if is_while else []
         items = items_of(story, main.chunks, story.subject)
         self._main(items, when if later is None else items_of(story, later.chunks), rest)
+        if is_while and known == len(story.doings):
+            story.refuse("it is not clear how long this is so")
+        if self.lasting:
+            deed = story.doings[-1]
+            start, end = st.Point(deed.begins), st.Point(story.finish(deed))
+            story.holds += [st.Hold("always", start, end, each, story.quote) for each in self.lasting]
+
+    def _lasting(self, when: list[Clause]) -> list[st.Condition]:
+        """Return what is so all the while: "While the ego stands, ..."; what is exact is so at a moment."""
+        story, moving = self.story, list[st.Condition]()
+        for clause in when:
+            if clause.deed is not None:
+                story.assumptions.append(f"'{clause.quote.text}' is from when that begins")
+            moving += [each for each in clause.conditions if not isinstance(each, st.Measure) or each.op != "=="
+                       or each == st.standstill(each.actor)]  # fmt: skip
+        ways = ["all the while", "when it begins"]
+        asked = f"How long is this so: {story.quote.text}"
+        keeps = moving and story.ask(f"while {story.quote.start}", asked, ways, 0, story.quote) == ways[0]
+        return moving if keeps else []
 
     def _main(self, items: list[Clause], when: list[Clause] | None, rest: list[Segment]) -> None:
         story = self.story
@@ -110,7 +137,7 @@ class _Sentence:
         does = any("shall" in each.notes and not each.says_more_than() for each in items)  # "so does the hero"
         timed = any(each.times for each in when or ())
         is_told = when is not None or self.pending is not None or bool(self.leads & {"then", "at once", "same time"})
-        items = self._acts(items, is_told and not timed)
+        items = acts_of(story, items, is_told and not timed)
         if not items and when is None:
             if rest or does:
                 story.refuse("it is not said what is done")
@@ -119,7 +146,22 @@ class _Sentence:
         if when is not None and not any(each.is_event for each in items[:acts]):
             when, items = [*when, *items[:acts]], items[acts:]  # "when ..., the hero is 20 m before it and brakes"
         first = items[0] if items else Clause(story.quote)
-        tells_time = any(each.link in _ORDERS for each in rest) or "after the start" in first.times
+        if any(each.link == "until" for each in rest):
+            lasting(first)
+        last = last_of(story, first.subject)
+        if first.deed is None and last is not None and last.rests and last.ends is None:
+            stands = st.standstill(last.actor)
+            if stands in first.measures:  # "it brakes at 2 m/s^2. It stands 10 m before ..."
+                first.deed, first.measures = "stop", [each for each in first.measures if each != stands]
+        tells_time = any(each.link in ORDERS for each in rest) or "after the start" in first.times
+        if (
+            tells_time
+            and story.doings
+            and first.subject != EGO
+            and first.is_event
+            and story.moment_with(first.measures, one=True) is None
+        ):
+            first.deed = st.Verb.DRIVE  # "... It passes the conflict point before the ego"
         # "The hero begins to brake 2 s after ..." speaks of a deed that was told before.
         known = first.phase and story.doing_of(first) is not None and when is None and not self.leads
         if first.deed and len(items) > 1:  # "it brakes to a stop, waits for 3 s and drives on"
@@ -143,6 +185,8 @@ class _Sentence:
             if (story.moments[moment].time is None or not items) and not story.is_owned(moment):
                 story.settle()
                 story.pending, story.awaits = moment, None if items or rest else story.quote
+            elif not story.is_owned(moment):
+                story.since = moment
             story.add(moment, story.conditions(items))
             self._orders(moment, rest)
         elif tells_time:
@@ -162,59 +206,6 @@ class _Sentence:
         if self.moment is None:
             self.moment = self.story.moment(when)
         return self.moment
-
-    def _acts(self, items: list[Clause], happens: bool) -> list[Clause]:
-        """Return what is done and what is so: a turn, a speed or an event is a deed where it `happens`.
-
-        What only says why (yields, does not give way) is kept to be checked; a deed and the event at its end are one,
-        and so is one that is told twice: "it brakes at 3 m/s^2 and stops at the stop line".
-        """
-        found: list[Clause] = []
-        acts = any(each.deed is not None for each in items)
-        for item in items:
-            self.story.courtesies += [(item.subject, each, item.quote) for each in item.flags & COURTESIES]
-            refrains = item.flags & REFRAINS
-            always = not happens and all(doing.actor != item.subject for doing in self.story.doings)
-            self.story.refrains += [(item.subject, each, item.quote, always) for each in sorted(refrains)]
-            item.flags -= COURTESIES | REFRAINS
-            is_hero = happens and item.deed is None and item.subject not in (None, EGO)
-            meant = "wanted" in item.notes or ("relative" in item.notes and acts)
-            turns = item.facts.get("turn", "straight") != "straight"
-            if is_hero and turns and not meant:
-                self.story.tell_way(item.subject or EGO, item.facts, turns_then=True)
-                item.facts, item.deed = {}, "turn"
-            elif is_hero and "first" in item.flags and not item.says_more_than("flags"):
-                item.flags, item.deed = item.flags - {"first"}, "go first"
-            elif is_hero and "kept" in item.flags and not item.says_more_than("flags"):
-                item.deed = st.Verb.DRIVE  # "when ..., it keeps its speed"
-            elif is_hero and refrains and all(other is item or not other.says_more_than() for other in items):
-                item.deed = st.Verb.DRIVE  # "when ..., it does not brake"
-            elif item.phase == "begins" and item.deed is None and item.measures:
-                item.phase = None
-                if is_hero and item.measures[0].quantity is st.Quantity.SPEED:  # "starts driving at 8 m/s"
-                    item.deed, item.flags = st.Verb.DRIVE, item.flags | {"to"}
-                    item.facts = {} if item.facts.get("turn") == "straight" else item.facts
-                else:  # "starts 40 m before the stop line"
-                    item.flags.add("start")
-            if acts:
-                self.story.tell(item)
-            before = found[-1] if found and found[-1].subject == item.subject else Clause(item.quote)
-            twice = (before.deed, item.deed) == (st.Verb.BRAKE, "stop")
-            if before.deed not in (None, "stop") and item.is_event and not before.measures:
-                before.measures, before.notes = item.measures, before.notes | item.notes
-            elif twice and not before.says_more_than("deed", "phase", "rates", "measures", "times"):
-                found[-1], item.rates = item, [*before.rates, *item.rates]
-                item.measures = [*before.measures, *item.measures]
-                for name, several in before.times.items():
-                    item.times[name] = [*several, *item.times.get(name, ())]
-                item.agree()
-            elif item.says_more_than():
-                if is_hero and item.is_event:
-                    item.deed = st.Verb.DRIVE
-                    if "turns" in item.quote.text.lower().split():  # "then it turns"
-                        item.measures, item.deed = [], "turn"
-                found.append(item)
-        return found
 
     def _facts(self, items: list[Clause]) -> None:
         """Take what is so at the start, all the while, later, or of somebody's way."""
@@ -241,9 +232,14 @@ class _Sentence:
                 story.refuse("nothing is said here")
         elif "meanwhile" in self.leads and story.doings and len(measures) == len(conditions):
             story.doings[-1].throughout += measures
+        elif "then" in self.leads and story.doings and {each.subject for each in items} == {EGO}:
+            led = Leads([], self.leads, self.own, self.delay)  # "Then the ego passes ..."
+            story.since = moment_led_to(story, items[0], led, self.pending, False)
+            story.add(story.since or st.START, conditions)
+            self.delay = None
         elif "later" in self.leads:
-            story.new_moment(conditions)
-        elif "same time" in self.leads and (at := same_time(story, self.pending)) is not None:
+            story.since = story.new_moment(conditions)
+        elif "same time" in self.leads and (at := same_time(story, self.pending, self.leads)) is not None:
             story.add(at, conditions)
             story.pending = self.pending
         elif "start" in self.leads or not (story.doings or self.pending is not None or self.leads - {"meanwhile"}):
@@ -268,20 +264,20 @@ class _Sentence:
             story.refuse("nothing was told of this deed before")
         if sum(each.link == "until" for each in rest) > 1:
             story.refuse("two ends of one deed are told")
-        if self.turned:  # "after turning left, it ..."
-            story.tell_way(clause.subject, {"turn": self.turned})
+        if turned := self.own.partition("turn ")[2]:  # "after turning left, it ..."
+            story.tell_way(clause.subject, {"turn": turned})
         story.awaits = None if when is None and self.pending is not None else story.awaits
         again = None if when is not None or self.pending is not None or self.leads else told_before(story, clause)
         begins, held, ends = self._shares(clause)
-        is_tied = bool(begins) or any(each.link in _ORDERS for each in rest)
+        is_tied = bool(begins) or any(each.link in ORDERS for each in rest)
         moment: int | None
         if when is not None:
             moment = self._moment(when)
         elif again is not None or (self.delay is None and self.pending is not None):
             moment = self.pending
         else:
-            moment = moment_led_to(story, clause, self.leads, self.delay, self.pending, is_tied)
-            self.delay = None
+            after = Leads([], self.leads, self.own, self.delay)
+            moment, self.delay, self.own = moment_led_to(story, clause, after, self.pending, is_tied), None, ""
         if "kept" in clause.flags and not held:  # "continues at a constant speed"
             if clause.deed != st.Verb.DRIVE:
                 story.refuse("it is not clear what is kept here")
@@ -300,14 +296,23 @@ class _Sentence:
         elif clause.deed == "go first":
             ends.append(self._at(clause.subject, "conflict_point"))
         is_event = "event" in clause.notes
+        if ends and is_event and when is not None and not rest:  # "when the ego stands, the van passes the stop line"
+            ways = ["some time after that", "at that moment"]
+            asked = f"When is this: {clause.quote.text}"
+            if story.ask(f"event {clause.quote.start}", asked, ways, 0, clause.quote) == ways[1]:
+                begins, ends = [*begins, *ends], []
         begun = clause.phase == "begins"  # "begins to brake to a stop 2 s before ..."
-        orders = [each for each in rest if each.link in _ORDERS and not is_event]
+        orders = [each for each in rest if each.link in ORDERS and not is_event]
         fronts = [each for each in orders if begun or each.link == "after" or each.is_first
-                  or (each.margin and not ends)]  # fmt: skip
-        if drives_on or fronts:
-            self.leads.add("then")
+                  or (each.margins and not ends)]  # fmt: skip
         verb = {"stop": st.Verb.BRAKE, "turn": st.Verb.DRIVE, "go first": st.Verb.DRIVE}.get(clause.deed, clause.deed)
-        doing = again or story.begin(clause.subject, verb, moment, self.leads)
+        led = self.leads | ({"passes"} if verb == st.Verb.DRIVE and "event" in clause.notes else set())
+        led |= {"then", "apart"} if drives_on or fronts else set()  # this says when it begins, not what it did before
+        led |= (
+            {"then"} if orders and verb in CHANGES and "start" not in led else set()
+        )  # nobody is at it from the start
+        doing = again or story.begin(clause.subject, verb, moment, led)
+        doing.turns |= clause.deed == "turn"
         story.subject = clause.subject
         if begins:
             agree(_measures((*story.moments[doing.begins].conditions, *begins)), clause.quote)
@@ -369,7 +374,10 @@ class _Sentence:
         story, told = self.story, [*ends, *doing.reached]
         if until is not None and doing.ends is not None:
             story.refuse("two ends of one deed are told", clause.quote)
-        if until is not None:
+        if until is not None and until.side:  # "until 1 s after the ego passes it"
+            doing.ends = story.new_moment(ends)
+            self._orders(doing.ends, [Segment(until.side, until.chunks, until.margins)])
+        elif until is not None:
             story.doer = doing.actor
             items = items_of(story, until.chunks)
             story.doer = None
@@ -387,7 +395,10 @@ class _Sentence:
     def _event_of(self, chunks: list[Chunk]) -> int:
         """Return the moment of the one event that chunks tell."""
         items = items_of(self.story, chunks)
-        if len(items) != 1 or items[0].times:
+        more = [each for item in items for each in item.measures if not st.is_event(each) and each.op == "=="]
+        comes = [each for item in items for each in item.measures if st.is_event(each)]
+        speeds = [each for each in more if each != st.standstill(each.actor)]
+        if len(items) != 1 or items[0].times or (comes and speeds):  # "before the ego begins to turn, at 5 m/s"
             self.story.refuse("this is not one event")
         return self.story.event(items[0])
 
@@ -403,12 +414,14 @@ class _Sentence:
     def _orders(self, moment: int, rest: list[Segment]) -> None:
         """Take what comes before or after a moment."""
         for segment in rest:
-            if segment.link not in _ORDERS:
+            if segment.link not in ORDERS:
                 self.story.refuse("it is not clear before or after what")
             other = self._event_of(segment.chunks)
-            first, second = (other, moment) if segment.link == "after" else (moment, other)
-            op, margin = segment.margin or (">=" if segment.link == "no later than" else ">", None)
-            self.story.orders.append(st.Order(first, second, op, margin, self.story.quote))
+            first, second = (other, moment) if segment.link in ("after", "no earlier than") else (moment, other)
+            if st.START in (first, second):
+                self.story.refuse("this is told of what is so from the start: nothing was before that")
+            for op, margin in segment.margins or [(">=" if segment.link.startswith("no ") else ">", None)]:
+                self.story.orders.append(st.Order(first, second, op, margin, self.story.quote))
 
     def _hold(self, how: Chunk) -> None:
         """Read ``From ... until ..., always: ...``."""

@@ -1,0 +1,92 @@
+"""What is done and what is so: a turn, a speed or an event that happens is a deed, and some deeds are told twice.
+
+What enters: the clauses of a sentence. What leaves: those that say something, with their deeds; courtesies and what
+somebody does not do are given to the narrative.
+"""
+
+from __future__ import annotations
+
+from scenewright.program.types import EGO
+from scenewright.translate import story as st
+from scenewright.translate.read.clauses import Clause
+from scenewright.translate.read.narrative import CHANGES, COURTESIES, REFRAINS, Narrative
+
+
+def acts_of(story: Narrative, items: list[Clause], happens: bool) -> list[Clause]:
+    """Return what is done and what is so: a turn, a speed or an event is a deed where it `happens`.
+
+    What only says why (yields, does not give way) is kept to be checked; a deed and the event at its end are one,
+    and so is one that is told twice: "it brakes at 3 m/s^2 and stops at the stop line".
+    """
+    found: list[Clause] = []
+    for item in items:
+        if "for" in item.times and item.subject not in (None, EGO):  # "stands for 4 s"
+            lasting(item)
+    acts = any(each.deed is not None for each in items)
+    for item in items:
+        story.courtesies += [(item.subject, each, item.quote) for each in item.flags & COURTESIES]
+        refrains = item.flags & REFRAINS
+        if item.subject is not None and item.flags & (COURTESIES | REFRAINS):
+            story.subject = item.subject
+        always = not happens and all(doing.actor != item.subject for doing in story.doings)
+        story.refrains += [(item.subject, each, item.quote, always) for each in sorted(refrains)]
+        item.flags -= COURTESIES | REFRAINS
+        is_hero = happens and item.deed is None and item.subject not in (None, EGO)
+        meant = "wanted" in item.notes or ("relative" in item.notes and acts)
+        turns = item.facts.get("turn", "straight") != "straight"
+        if is_hero and turns and not meant:
+            story.tell_way(item.subject or EGO, item.facts, turns_then=True)
+            item.facts, item.deed = {}, "turn"
+        elif is_hero and "first" in item.flags and not item.says_more_than("flags"):
+            item.flags, item.deed = item.flags - {"first"}, "go first"
+        elif (
+            (is_hero or (item.times and any(doing.actor == item.subject for doing in story.doings)))
+            and "kept" in item.flags
+            and not item.says_more_than("flags", "times", "measures")
+        ):
+            item.deed = st.Verb.DRIVE  # "when ..., it keeps its speed"; "It keeps this speed for 5 s"
+        elif is_hero and refrains and all(other is item or not other.says_more_than() for other in items):
+            item.deed = st.Verb.DRIVE  # "when ..., it does not brake"
+        elif item.phase == "begins" and item.deed is None and item.measures:
+            item.phase = None
+            if is_hero and item.measures[0].quantity is st.Quantity.SPEED:  # "starts driving at 8 m/s"
+                item.deed, item.flags = st.Verb.DRIVE, item.flags | {"to"}
+                item.facts = {} if item.facts.get("turn") == "straight" else item.facts
+            else:  # "starts 40 m before the stop line"
+                item.flags.add("start")
+        if acts:
+            story.tell(item)
+        before = found[-1] if found and found[-1].subject == item.subject else Clause(item.quote)
+        twice = (before.deed, item.deed) == (st.Verb.BRAKE, "stop")
+        if before.deed not in (None, "stop") and item.is_event and not before.measures:
+            before.measures, before.notes = item.measures, before.notes | item.notes
+        elif twice and not before.says_more_than("deed", "phase", "rates", "measures", "times"):
+            found[-1], item.rates = item, [*before.rates, *item.rates]
+            item.measures = [*before.measures, *item.measures]
+            for name, several in before.times.items():
+                item.times[name] = [*several, *item.times.get(name, ())]
+            item.agree()
+        elif item.says_more_than():
+            if is_hero and item.is_event:
+                item.deed, starts = st.Verb.DRIVE, [each.place for each in item.measures] == [st.Place("turn_start")]
+                if starts or "turns" in item.quote.text.lower().split():  # "then it turns"
+                    item.measures, item.deed = [], "turn"
+            found.append(item)
+            comes = [each for each in item.measures if st.is_event(each)]
+            if "to" in item.flags and "event" in item.notes and comes and item.deed in CHANGES:
+                # "It speeds up to 14 m/s so that it passes the stop line": not just there.
+                item.measures, item.notes = (
+                    [each for each in item.measures if each not in comes],
+                    item.notes - {"event"},
+                )
+                found.append(Clause(item.quote, item.subject, st.Verb.DRIVE, measures=comes, notes={"event"}))
+    return found
+
+
+def lasting(clause: Clause) -> None:
+    """Let what lasts until something be a deed: "it stands until ...", "it drives at 8 m/s until ..."."""
+    stands = st.standstill(clause.subject or EGO)
+    if clause.deed is None and stands in clause.measures:
+        clause.deed, clause.measures = st.Verb.STAND, [each for each in clause.measures if each != stands]
+    elif clause.deed is None and "drives" in clause.notes:
+        clause.deed = st.Verb.DRIVE

@@ -1,0 +1,169 @@
+"""What lies between deeds and moments: orders with bounds, breaks, what is so all the while, what is told later."""
+
+from __future__ import annotations
+
+import pytest
+
+from scenewright.errors import TranslationError
+from scenewright.translate import story as st
+from scenewright.translate.read.sentences import read
+from scenewright.translate.tell import tell
+
+WAYS = "The ego turns left out of the driveway. The hero drives west. "
+MEETS = WAYS + "When the ego is 12 m before the stop line, the hero "
+TURNS = "The ego drives west. An oncoming hero turns left. "
+
+
+def verbs(story: st.Story, actor: int = 1) -> list[str]:
+    return [str(deed.verb) for deed in story.deeds_of(actor)]
+
+
+def margins(story: st.Story) -> list[tuple[str, float | None]]:
+    return sorted((each.op, None if each.margin is None else float(each.margin.si or 0)) for each in story.orders)
+
+
+@pytest.mark.parametrize(
+    ("said", "meant", "told"),
+    [
+        ("at most 2 s after", [("<=", 2), (">=", None)], "at most 2 s after"),
+        ("less than 2 s after", [("<", 2), (">=", None)], "less than 2 s after"),
+        ("within 2 s after", [("<=", 2), (">=", None)], "at most 2 s after"),
+        ("no later than 2 s after", [("<=", 2)], "no later than 2 s after"),
+        ("earlier than 2 s after", [("<", 2)], "earlier than 2 s after"),
+        ("no earlier than 2 s after", [(">=", 2)], "at least 2 s after"),
+        ("between 1 s and 2 s after", [("<=", 2), (">=", 1)], "no later than 2 s after"),
+        ("1-2 s after", [("<=", 2), (">=", 1)], "at least 1 s after"),
+        ("no later than 2 s before", [(">=", 2)], "at least 2 s after"),
+    ],
+)
+def test_a_bound_on_how_much_later_has_as_many_sides_as_its_words(
+    said: str, meant: list[tuple[str, float | None]], told: str
+) -> None:
+    story = read(f"{WAYS}The hero brakes {said} the ego passes the stop line.")
+    assert margins(story) == meant
+    lines = tell(story)
+    assert any(told in line for line in lines)
+    assert st.arranged(read("\n".join(lines))) == st.arranged(story)
+
+
+def test_what_is_tied_to_another_moment_does_not_begin_where_the_deed_before_ends() -> None:
+    story = read(f"{MEETS}brakes to 5 m/s. It finishes braking before the ego passes the stop line. "
+                 "It begins to speed up after the ego passes the stop line.")  # fmt: skip
+    assert verbs(story) == ["drive on", "brake", "drive on", "speed up"]
+    assert len({each for order in story.orders for each in (order.first, order.second)}) == 3
+
+
+def test_who_brakes_again_has_not_come_to_a_standstill_unless_told() -> None:
+    text = f"{MEETS}brakes at 2 m/s^2. Later it brakes to a stop 5 m before the conflict point."
+    story = read(text)
+    assert verbs(story) == ["drive on", "brake", "drive on", "brake"]
+    (question,) = story.questions
+    stood = read(text, {question.slot: "to a standstill"})
+    assert verbs(stood) == ["drive on", "brake", "stand still", "brake"]
+
+
+def test_what_is_done_after_a_turn_is_told_is_asked_about() -> None:
+    text = f"{TURNS}When the ego is 12 m before the conflict point, the hero turns left. It accelerates at 1.5 m/s^2."
+    story = read(text)
+    assert verbs(story) == ["drive on", "drive on", "speed up"]
+    assert verbs(read(text, {story.questions[0].slot: "while it turns"})) == ["drive on", "speed up"]
+
+
+def test_a_turn_that_starts_at_a_moment_starts_then() -> None:
+    story = read(f"{TURNS}When the ego is 40 m before the conflict point, the hero starts its turn.")
+    begins = story.moments[story.deeds_of(1)[1].begins]
+    assert {each.place.name for each in begins.conditions if isinstance(each, st.Measure) and each.place} == {
+        "conflict_point", "turn_start"}  # fmt: skip
+
+
+def test_while_holds_all_the_while_or_where_that_is_answered_when_it_begins() -> None:
+    text = f"{WAYS}While the ego stands at the stop line, the hero speeds up to 12 m/s."
+    story = read(text)
+    assert [(hold.how, hold.condition) for hold in story.holds] == [("always", st.standstill(0))]
+    assert not read(text, {story.questions[0].slot: "when it begins"}).holds
+    assert not read(f"{WAYS}While the ego is 12 m before the stop line, the hero brakes.").holds
+    with pytest.raises(TranslationError, match="how long"):
+        read(f"{WAYS}While the ego is at least 12 m before the stop line, the hero drives at 5 m/s.")
+
+
+def test_a_deed_lasts_until_some_time_after_a_moment() -> None:
+    story = read(f"{MEETS}brakes to a stop. It stands until 1 s after the ego passes the conflict point.")
+    assert verbs(story) == ["drive on", "brake", "stand still"]
+    assert margins(story) == [("==", 1)]
+
+
+@pytest.mark.parametrize(
+    ("said", "does"),
+    [
+        ("speeds up. It passes", ["drive on", "speed up"]),
+        ("speeds up to 12 m/s. It passes", ["drive on", "speed up", "drive on"]),
+        ("speeds up to 12 m/s so that it passes", ["drive on", "speed up", "drive on"]),
+        ("brakes to a stop. It passes", ["drive on", "brake", "stand still", "drive on"]),
+        ("brakes. It passes", ["drive on", "brake", "drive on"]),  # it is asked how far
+    ],
+)
+def test_who_passes_first_may_be_told_after_what_it_does(said: str, does: list[str]) -> None:
+    story = read(f"{MEETS}{said} the conflict point before the ego.")
+    assert verbs(story) == does
+    assert [(each.first, each.op) for each in story.orders] == [(story.deeds_of(1)[-1].ends, ">")]
+
+
+def test_what_the_ego_does_then_lies_between() -> None:
+    for lead in ("Later, the ego passes", "Then the ego passes"):
+        story = read(f"{MEETS}brakes to a stop. {lead} the conflict point. Then the hero drives on.")
+        passes = next(at for at, each in enumerate(story.moments) if any(map(st.is_event, each.conditions)))
+        assert (passes, story.deeds_of(1)[-1].begins) in [(each.first, each.second) for each in story.orders]
+
+
+@pytest.mark.parametrize(
+    ("said", "named"),
+    [
+        ("brakes to half its speed.", "half"),
+        ("brakes twice as hard.", "twice"),
+        ("brakes harder.", "harder"),
+        ("brakes. The ego drives half as fast as the hero.", "half"),
+        ("speeds up. It brakes when the ego starts to turn, but only to 10 m/s.", "to"),
+        ("speeds up. It stops before the ego begins to turn, at 5 m/s.", "not one event"),
+        ("brakes to a stop. It stands at most until the ego passes the stop line.", "at most"),
+    ],
+)
+def test_what_changes_a_number_is_never_set_aside(said: str, named: str) -> None:
+    with pytest.raises(TranslationError) as caught:
+        read(MEETS + said)
+    assert named in caught.value.message
+
+
+@pytest.mark.parametrize(
+    ("said", "amount"),
+    [("half a second", "1/2"), ("a third of a second", "1/3"), ("one and a half seconds", "3/2"), ("0.5 s", "1/2"),
+     ("three quarters of a second", "3/4")],
+)  # fmt: skip
+def test_parts_of_a_unit_are_amounts(said: str, amount: str) -> None:
+    story = read(f"{MEETS}brakes to a stop and waits for {said}.")
+    assert [str(each.margin.si) for each in story.orders if each.margin is not None] == [amount]
+
+
+@pytest.mark.parametrize(
+    "said",
+    ["20-25 m", "20 – 25 m", "20 m - 25 m", "20 to 25 m", "between 20 and 25 m", "at least 20 m and at most 25 m"],
+)
+def test_a_range_is_a_lower_and_an_upper_bound(said: str) -> None:
+    plain = read(f"{WAYS}When the ego is between 20 m and 25 m before the stop line, the hero brakes.")
+    story = read(f"{WAYS}When the ego is {said} before the stop line, the hero brakes.")
+    assert st.arranged(story) == st.arranged(plain)
+
+
+def test_it_of_a_place_keeps_whose_it_is() -> None:
+    story = read(f"{MEETS}brakes to a stop 5 m before it.")
+    assert st.Place("stop_line", 0) in [each.place for each in st.within(story.moments, st.Measure)]
+    meets = read(
+        f"{WAYS}When the ego is 12 m before the conflict point and the hero is 20 m before it, the hero brakes."
+    )
+    assert {each.place for each in st.within(meets.moments, st.Measure) if each.place} == {st.Place("conflict_point")}
+
+
+def test_people_have_numbers() -> None:
+    story = read("The ego turns left out of the driveway. POV1 drives west, POV 2 drives east. When the ego is 12 m "
+                 "before the stop line, POV 2 brakes.")  # fmt: skip
+    assert [actor.name for actor in story.heroes] == ["hero 1", "hero 2"]
+    assert verbs(story, 2) == ["drive on", "brake"]
