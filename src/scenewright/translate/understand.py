@@ -133,7 +133,11 @@ def understand(
         on = load_map(story.map_name) if road_map is None else road_map
         if story.map_name == DEFAULT_MAP:
             story = replace(story, map_name=on.name)
-        story = put_on_map(story, on, given)
+        try:
+            story = put_on_map(story, on, given)
+        except TranslationError:
+            if all(each.default is not None for each in story.questions):
+                raise  # else that is asked about first
         asked |= {each.slot: each for each in story.questions}
         waiting = [each for each in story.questions if each.slot not in given]
         found = {each.slot: known[each.slot] for each in waiting if each.slot in known}

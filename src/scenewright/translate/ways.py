@@ -37,11 +37,8 @@ def put_on_map(story: st.Story, road_map: RoadMap, answers: Mapping[str, str] | 
         found = list(dict.fromkeys(_way(route, road_map) for route in fitting[actor.id]))
         if not found:
             there_are = "; ".join(dict.fromkeys(phrases.way(_way(route, road_map)) for route in all_routes(road_map)))
-            raise TranslationError(
-                f"no way on {road_map.name} fits what is said of {phrases.name(actor.id)}",
-                found=phrases.way(actor.way),
-                expected=f"one of: {there_are}",
-            )
+            message = f"no way on {road_map.name} fits what is said of {phrases.name(actor.id)}"
+            raise TranslationError(message, found=phrases.way(actor.way), expected=f"one of: {there_are}")
         straights = [number for number, way in enumerate(found) if way.turn == "straight"]
         if len(straights) == 1 < len(found) and not _is_open(actor, story):
             found = [found[straights[0]]]
@@ -154,4 +151,4 @@ def _in_line(story: st.Story) -> st.Story:
         pair = (who, relation.of) if relation.kind == "behind" else (relation.of, who)  # the rear one first
         if relation.kind in ("ahead", "behind") and pair not in told:
             added.append(st.Measure(pair[0], st.Quantity.GAP, ">", NO_GAP, other=pair[1], quote=relation.quote))
-    return replace(story, moments=(replace(start, conditions=(*start.conditions, *added)), *others))
+    return replace(story, moments=(replace(start, conditions=(*start.conditions, *dict.fromkeys(added))), *others))

@@ -8,6 +8,7 @@ from scenewright.errors import TranslationError
 from scenewright.translate import story as st
 from scenewright.translate.read.sentences import read
 from scenewright.translate.tell import tell
+from scenewright.translate.understand import understand
 
 WAYS = "The ego turns left out of the driveway. The hero drives west. "
 MEETS = WAYS + "When the ego is 12 m before the stop line, the hero "
@@ -166,4 +167,93 @@ def test_people_have_numbers() -> None:
     story = read("The ego turns left out of the driveway. POV1 drives west, POV 2 drives east. When the ego is 12 m "
                  "before the stop line, POV 2 brakes.")  # fmt: skip
     assert [actor.name for actor in story.heroes] == ["hero 1", "hero 2"]
+    assert verbs(story, 2) == ["drive on", "brake"]
+
+
+LINE = "The ego drives west. A hero drives ahead of it at 12 m/s. When "
+
+
+@pytest.mark.parametrize(
+    ("said", "plain"),
+    [
+        (f"{LINE}the TTC of the ego and the hero is 3 s, it brakes.", f"{LINE}the TTC is 3 s, it brakes."),
+        (f"{LINE}the time to collision with the hero is 3 s, it brakes.", f"{LINE}the TTC is 3 s, it brakes."),
+        (f"{LINE}the headway to the hero is 2 s, it brakes.", f"{LINE}the headway is 2 s, it brakes."),
+        (f"{LINE}the headway of the ego to the hero is 2 s, it brakes.", f"{LINE}the headway is 2 s, it brakes."),
+        (f"{LINE}the ego's headway is 2 s, it brakes.", f"{LINE}the headway is 2 s, it brakes."),
+        (f"{LINE}the speed of the hero is 9 m/s, it brakes.", f"{LINE}the hero drives at 9 m/s, it brakes."),
+        (f"{LINE}the ego has a speed of 9 m/s and a headway of 2 s to the hero, the hero brakes.",
+         f"{LINE}the ego drives at 9 m/s and the headway is 2 s, the hero brakes."),
+        (f"{LINE}the gap is 20 m, it brakes from 12 m/s to 8 m/s.",
+         f"{LINE}the gap is 20 m and the hero drives at 12 m/s, it brakes to 8 m/s."),
+        (f"{LINE}the gap is 20 m, it brakes from 12 to 8 m/s.",
+         f"{LINE}the gap is 20 m and the hero drives at 12 m/s, it brakes to 8 m/s."),
+        (f"{LINE}the gap is 20 m, it brakes to a stop in 4 s.",
+         f"{LINE}the gap is 20 m, it begins to brake for 4 s until it stands."),
+        (f"{LINE}the gap is 20 m, it brakes to a stop in 3 to 4 s.",
+         f"{LINE}the gap is 20 m, it begins to brake for at least 3 s and at most 4 s until it stands."),
+        (f"{LINE}the ego has a gap of 20 m and drives at 9 m/s, the hero brakes.",
+         f"{LINE}the gap is 20 m and the ego drives at 9 m/s, the hero brakes."),
+        (f"{LINE}the gap is 20 m, it brakes to 5 m/s within 4 s.",
+         f"{LINE}the gap is 20 m, it begins to brake for at most 4 s until it drives at 5 m/s."),
+        (f"{LINE}the gap is 20 m, it brakes at 2 m/s^2 to a speed of 5 m/s.",
+         f"{LINE}the gap is 20 m, it brakes at 2 m/s^2 to 5 m/s."),
+        (f"{LINE}the gap is 20 m, the hero brakes 1 s later to 5 m/s.",
+         f"{LINE}the gap is 20 m. 1 s later, the hero brakes to 5 m/s."),
+        (f"{WAYS}When the ego is 3 s and the hero 4 s from the conflict point, the hero brakes.",
+         f"{WAYS}When the ego is 3 s from the conflict point and the hero is 4 s from the conflict point, it brakes."),
+        (f"{WAYS}When the ego waits at its stop line, the hero brakes.",
+         f"{WAYS}When the ego stands at its stop line, the hero brakes."),
+        (f"{WAYS}When the ego stops at its stop line, the hero brakes.",
+         f"{WAYS}When the ego stands at its stop line, the hero brakes."),
+        (f"{WAYS}The hero keeps its speed until the ego is 12 m before the stop line, then it brakes.",
+         f"{WAYS}The hero continues at a constant speed until the ego is 12 m before the stop line, then it brakes."),
+        ("The ego drives west. A hero ahead of it brakes to a stop when the gap is 20 m.",
+         "The ego drives west. A hero drives ahead of it. When the gap is 20 m, the hero brakes to a stop."),
+        (f"{LINE}the gap is 20 m, it brakes to 5 m/s and 1 s later it speeds up.",
+         f"{LINE}the gap is 20 m, it brakes to 5 m/s. 1 s later, it speeds up."),
+        ("The ego proceeds west at 9 m/s. A hero drives ahead of it. When the gap is 20 m, the hero brakes.",
+         "The ego drives west at 9 m/s. A hero drives ahead of it. When the gap is 20 m, the hero brakes."),
+        ("The ego drives west behind a bus. When the gap is 20 m, it brakes.",
+         "The ego follows a bus west in the same lane. When the gap is 20 m, it brakes."),
+    ],
+)  # fmt: skip
+def test_what_is_said_otherwise_is_the_same(said: str, plain: str) -> None:
+    assert st.arranged(understand(said).story) == st.arranged(understand(plain).story)
+
+
+@pytest.mark.parametrize(
+    ("said", "named"),
+    [
+        (f"{LINE}the gap is 20 m, it brakes to a stop within 30 m.", "how far a deed goes"),
+        (f"{LINE}the gap is 20 m, it brakes within 3 s.", "'3 s'"),
+        (f"{LINE}the gap is 20 m, it stands still in 3 s.", "'3 s'"),
+        (f"{LINE}the gap is 20 m, it brakes to 5 m/s. It passes the conflict point before it.", "before itself"),
+        ("The ego drives west. A hero turns right out of the driveway in front of the ego.", "goes first"),
+        ("The ego and the hero drive west. When it is 20 m before the stop line, it brakes.", "who is meant"),
+        ("The traffic light turns red when the ego is 30 m before the stop line.", "leaves something open"),
+        ("The ego drives north. The hero zonks.", "leaves something open"),
+    ],
+)
+def test_what_is_not_clear_is_named(said: str, named: str) -> None:
+    with pytest.raises(TranslationError) as caught:
+        understand(said)
+    assert named in caught.value.message
+
+
+def test_it_is_of_whom_a_moment_was_told_last() -> None:
+    story = read("The ego drives west. An oncoming truck and an oncoming van turn left. When the ego is 30 m before "
+                 "the stop line, the truck is 20 m before its stop line. It brakes.")  # fmt: skip
+    assert (verbs(story, 1), verbs(story, 2)) == (["drive on", "brake"], [])
+    story = read(f"{WAYS}When the hero is 30 m before the stop line, the ego is 12 m before its stop line. It brakes.")
+    assert verbs(story, 1) == ["drive on", "brake"]
+
+
+def test_a_bare_car_beside_a_truck_is_another_one() -> None:
+    story = read("The ego turns left out of the driveway. Truck from the left, car from the right. When the ego is 12 "
+                 "m before the stop line, the truck brakes. Then the car brakes.")  # fmt: skip
+    assert [actor.name for actor in story.heroes] == ["truck", "car"]
+    story = read("The ego turns right out of the driveway. Car A drives west. Car B follows car A. When the ego is 12 "
+                 "m before the stop line, car B brakes.")  # fmt: skip
+    assert [actor.name for actor in story.heroes] == ["car a", "car b"]
     assert verbs(story, 2) == ["drive on", "brake"]

@@ -22,6 +22,8 @@ def acts_of(story: Narrative, items: list[Clause], happens: bool) -> list[Clause
     for item in items:
         if "for" in item.times and item.subject not in (None, EGO):  # "stands for 4 s"
             lasting(item)
+        if (item.subject, item.deed) == (EGO, st.Verb.DRIVE) and item.says_more_than("deed") and not happens:
+            item.deed = None  # nobody tells it to: "the ego proceeds west"
     acts = any(each.deed is not None for each in items)
     for item in items:
         story.courtesies += [(item.subject, each, item.quote) for each in item.flags & COURTESIES]
@@ -32,6 +34,7 @@ def acts_of(story: Narrative, items: list[Clause], happens: bool) -> list[Clause
         story.refrains += [(item.subject, each, item.quote, always) for each in sorted(refrains)]
         item.flags -= COURTESIES | REFRAINS
         is_hero = happens and item.deed is None and item.subject not in (None, EGO)
+        goes_on = item.times and any(doing.actor == item.subject for doing in story.doings)
         meant = "wanted" in item.notes or ("relative" in item.notes and acts)
         turns = item.facts.get("turn", "straight") != "straight"
         if is_hero and turns and not meant:
@@ -39,11 +42,7 @@ def acts_of(story: Narrative, items: list[Clause], happens: bool) -> list[Clause
             item.facts, item.deed = {}, "turn"
         elif is_hero and "first" in item.flags and not item.says_more_than("flags"):
             item.flags, item.deed = item.flags - {"first"}, "go first"
-        elif (
-            (is_hero or (item.times and any(doing.actor == item.subject for doing in story.doings)))
-            and "kept" in item.flags
-            and not item.says_more_than("flags", "times", "measures")
-        ):
+        elif "kept" in item.flags and (is_hero or goes_on) and not item.says_more_than("flags", "times", "measures"):
             item.deed = st.Verb.DRIVE  # "when ..., it keeps its speed"; "It keeps this speed for 5 s"
         elif is_hero and refrains and all(other is item or not other.says_more_than() for other in items):
             item.deed = st.Verb.DRIVE  # "when ..., it does not brake"
@@ -60,11 +59,10 @@ def acts_of(story: Narrative, items: list[Clause], happens: bool) -> list[Clause
         twice = (before.deed, item.deed) == (st.Verb.BRAKE, "stop")
         if before.deed not in (None, "stop") and item.is_event and not before.measures:
             before.measures, before.notes = item.measures, before.notes | item.notes
-        elif twice and not before.says_more_than("deed", "phase", "rates", "measures", "times"):
-            found[-1], item.rates = item, [*before.rates, *item.rates]
+        elif twice and not before.says_more_than("deed", "phase", "rates", "measures", "times", "begins"):
+            found[-1], item.rates, item.begins = item, [*before.rates, *item.rates], [*before.begins, *item.begins]
             item.measures = [*before.measures, *item.measures]
-            for name, several in before.times.items():
-                item.times[name] = [*several, *item.times.get(name, ())]
+            item.times |= {name: [*several, *item.times.get(name, ())] for name, several in before.times.items()}
             item.agree()
         elif item.says_more_than():
             if is_hero and item.is_event:
@@ -75,10 +73,8 @@ def acts_of(story: Narrative, items: list[Clause], happens: bool) -> list[Clause
             comes = [each for each in item.measures if st.is_event(each)]
             if "to" in item.flags and "event" in item.notes and comes and item.deed in CHANGES:
                 # "It speeds up to 14 m/s so that it passes the stop line": not just there.
-                item.measures, item.notes = (
-                    [each for each in item.measures if each not in comes],
-                    item.notes - {"event"},
-                )
+                item.measures = [each for each in item.measures if each not in comes]
+                item.notes -= {"event"}
                 found.append(Clause(item.quote, item.subject, st.Verb.DRIVE, measures=comes, notes={"event"}))
     return found
 
@@ -88,5 +84,5 @@ def lasting(clause: Clause) -> None:
     stands = st.standstill(clause.subject or EGO)
     if clause.deed is None and stands in clause.measures:
         clause.deed, clause.measures = st.Verb.STAND, [each for each in clause.measures if each != stands]
-    elif clause.deed is None and "drives" in clause.notes:
+    elif clause.deed is None and ("drives" in clause.notes or "kept" in clause.flags):
         clause.deed = st.Verb.DRIVE

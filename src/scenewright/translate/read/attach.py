@@ -9,21 +9,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 
+from scenewright.errors import UnknownWordsError
 from scenewright.program.types import EGO
 from scenewright.translate import story as st
 from scenewright.translate.phrases import SIDES
 from scenewright.translate.read.cast import Cast
 from scenewright.translate.read.chunks import Chunk
-from scenewright.translate.read.clauses import IT, Clause, Taken, Target
+from scenewright.translate.read.clauses import BETWEEN_TWO, IT, PEOPLE, Clause, Taken, Target
 
 _BARE = {side: op for op, side in SIDES.items()} | {"to": "==", "behind": "<"}  # a side and a place, without an amount
 _TO_PLACE = ("before", "behind", "from", "to", "ahead", "of")
-_SIDES_OF_ACTORS = {  # by what is asked for: the sides on which the other one may stand
-    None: ("behind", "ahead"), "gap": ("behind", "ahead", "to"), "headway": ("behind", "to"),
-    "time to collision": ("behind", "with", "to"),
-}  # fmt: skip
-_OF_A_PLACE = {True: (None, "time to arrival"), False: (None, "gap")}  # what may be asked for, by whether it is a time
-_OF_ITS_OWN = {"speed": (None, "speed"), "acceleration": (None, "rate", "acceleration", "deceleration")}
 _CONTRARY = ((st.Verb.BRAKE, "acceleration"), ("stop", "acceleration"), (st.Verb.SPEED_UP, "deceleration"))
 
 
@@ -45,7 +40,11 @@ def _attach(taken: Taken) -> None:
         if target.place is not None and target.chunk.kind == "pronoun":
             target.place = taken.people.seen_by(target.place, clause.subject)
         elif target.place is None and target.other is None:
-            target.other = taken.people.whom(target.chunk, clause.subject)
+            target.other = taken.people.whom(target.chunk.quote, clause.subject)
+    if (clause.deed, clause.subject) == (st.Verb.STAND, EGO) and not clause.says_more_than("deed"):
+        clause.deed, taken.states = None, taken.states | {"stands"}  # nobody tells the ego to: "the ego waits"
+    if "in" in clause.times and clause.deed != "stop" and not clause.flags & {"to", "standstill"}:
+        raise taken.left_over(last)  # "brakes within 4 s": until then, or for so long?
     if "stands" in taken.states:
         taken.measure(last, st.standstill(IT))
     for name in sorted(taken.states & {"turn_start", "turn_end"}):
@@ -57,21 +56,24 @@ def _attach(taken: Taken) -> None:
             _stand_alone(taken, target)
     places = [each for each in clause.measures if each.quantity is st.Quantity.PLACE]
     passes_nothing = "pass" in taken.states and all(each.amount is not None for each in places)
-    fast = taken.quantity == "speed" or any(each.quantity is st.Quantity.SPEED for each in clause.measures)
+    fast = "speed" in taken.quantities or any(each.quantity is st.Quantity.SPEED for each in clause.measures)
     is_kept = "kept" in clause.flags
     # "It continues at this speed": who drives at it without such a deed may drive as another one does.
     fast |= clause.deed == st.Verb.DRIVE and any(each.kind == "kept" and "speed" in each.text for each in taken.chunks)
     if is_kept and not fast:  # "keeps a gap of 20 m"
         raise taken.left_over(last)
-    is_empty = taken.quantity and not (taken.amounts or is_kept)
-    if passes_nothing or ("reach" in taken.states and not places) or is_empty:
+    told = [chunk.amount.dimension for _, _, chunk in taken.amounts if chunk.amount] + ["speed"] * is_kept
+    if passes_nothing or ("reach" in taken.states and not places) or taken.quantities.keys() - {*told}:
         raise taken.left_over(last)
     if "goes" in taken.states and clause.deed is None and not (clause.facts or clause.measures or clause.flags):
         clause.deed = st.Verb.DRIVE
-    if clause.subject is None and (clause.measures or clause.rates):
+    if clause.subject is None and (clause.measures or clause.rates or clause.begins):
         raise taken.left_over(taken.chunks[0])
-    clause.measures = [_of(each, clause.subject, taken.people) for each in clause.measures]
-    clause.rates = [_of(each, clause.subject, taken.people) for each in clause.rates]
+    for some in (clause.measures, clause.rates, clause.begins):
+        some[:] = [_of(each, clause.subject, taken.people) for each in some]
+    if any(each.of == clause.subject for each in clause.relations):  # "the ego follows a bus in the same lane"
+        other = taken.people.whom(clause.quote, clause.subject)
+        clause.relations = [replace(each, of=other) for each in clause.relations]
     if any(each.place is not None and each.place.partner == each.actor for each in clause.measures):
         raise taken.left_over(last)  # "it" of a conflict point with somebody, said of that one
     clause.agree()
@@ -85,8 +87,15 @@ def _find_subject(taken: Taken) -> None:
     # "There is a driveway 100 m in front of the ego."
     if clause.subject is None and taken.amounts and ahead is not None and place is not None:
         clause.subject, ahead.used, place.side = ahead.other, True, "before"
-    if clause.subject is None and taken.quantity in ("gap", "headway", "time to collision") and not taken.targets:
-        taken.pair = taken.pair or taken.people.pair(taken.chunks[0])  # "when the gap is 20 m"
+    if taken.pair is None and {*BETWEEN_TWO} & {*taken.quantities.values()}:
+        others = [each.other for each in taken.targets if each.side in ("to", "with") and each.other is not None]
+        if clause.subject is not None and not taken.targets:  # "the ego's headway is 2 s"
+            other = taken.people.whom(clause.quote, clause.subject)
+            taken.targets.append(Target(0, "to", taken.chunks[-1], other=other))
+        elif clause.subject is None and not taken.targets:
+            taken.pair = taken.people.pair(taken.chunks[0])  # "when the gap is 20 m"
+        elif clause.subject is None and len(others) == len(taken.targets) == 1:  # "the headway to the hero is 2 s"
+            taken.pair, taken.targets = (taken.people.whom(clause.quote, others[0]), others[0]), []
     if taken.pair is not None:
         if clause.subject not in (None, *taken.pair):
             raise taken.left_over(taken.chunks[taken.subject_at])  # "the van has a gap between the ego and the hero"
@@ -112,7 +121,12 @@ def _of(measure: st.Measure, subject: int | None, people: Cast) -> st.Measure:
 def _stand_alone(taken: Taken, target: Target) -> None:
     """Make of a target without an amount what it says: how two ways lie, or where somebody is."""
     clause = taken.clause
-    if target.other is not None and target.side in ("ahead", "behind") and not (clause.deed or "event" in clause.notes):
+    is_which = target.at > 0 and taken.chunks[target.at - 1].kind in PEOPLE  # "a car ahead of it brakes"
+    acts = clause.deed or "event" in clause.notes
+    if target.other is not None and target.side in ("ahead", "behind") and (is_which or not acts):
+        if clause.facts.get("turn", "straight") != "straight" and not is_which:
+            fix = "say who passes first, or that it 'turns left across the path of the ego'"
+            raise UnknownWordsError("it is not clear whether it goes first", found=clause.quote.text, fix=fix)
         clause.relations.append(st.Relation(target.side, target.other, target.chunk.quote))
     elif target.side == "at" and target.at < taken.subject_at and not taken.states & {"pass", "reach"}:
         raise taken.left_over(target.chunk)  # "at the junction, the ego ...": it is what follows that is there
@@ -126,14 +140,13 @@ def _give(taken: Taken, at: int, op: st.Operator, chunk: Chunk) -> None:
     """Make a measure of an amount, with the nearest free target after it, else before it."""
     amount, clause = chunk.amount, taken.clause
     assert amount is not None
-    if taken.quantity not in _OF_ITS_OWN.get(amount.dimension, (taken.quantity,)):
-        raise taken.left_over(chunk)
+    named = taken.quantities.get(amount.dimension)
     if amount.dimension == "speed":
         taken.measure(chunk, st.Measure(IT, st.Quantity.SPEED, op, amount))
         return
     if amount.dimension == "acceleration":
-        slowing = taken.quantity == "deceleration" or clause.deed in (st.Verb.BRAKE, "stop")
-        if (clause.deed, taken.quantity) in _CONTRARY:
+        slowing = named == "deceleration" or clause.deed in (st.Verb.BRAKE, "stop")
+        if (clause.deed, named) in _CONTRARY:
             raise taken.left_over(chunk)  # nobody brakes with an acceleration
         if slowing and amount.value is not None and amount.value < 0:  # "brakes at -3 m/s^2": the sign says it again
             amount = replace(amount, value=-amount.value)
@@ -147,6 +160,9 @@ def _give(taken: Taken, at: int, op: st.Operator, chunk: Chunk) -> None:
     target = next((each for each in free if each.at > at), free[-1] if free else None)
     if at in taken.ranges:
         target = next((each for each in taken.targets if each.at > at), None) or taken.last
+    if target is None and amount.dimension == "length" and clause.deed is not None:
+        fix = "say where it ends, as in '... 5 m before the conflict point'"
+        raise UnknownWordsError("how far a deed goes cannot be said yet", found=clause.quote.text, fix=fix)
     if target is None:
         raise taken.left_over(chunk)
     target.used, taken.last = True, target
@@ -154,16 +170,17 @@ def _give(taken: Taken, at: int, op: st.Operator, chunk: Chunk) -> None:
     past = side in ("past", "after") and not is_time
     if place is not None:
         quantity = st.Quantity.ARRIVAL if is_time else st.Quantity.PLACE
-        fits = past or side in _TO_PLACE or (side == "at" and taken.quantity == "time to arrival")
-        if not fits or taken.quantity not in _OF_A_PLACE[is_time]:
+        fits = past or side in _TO_PLACE or (side == "at" and named == "time to arrival")
+        if not fits or named not in (None, "time to arrival", "gap"):
             raise taken.left_over(target.chunk)
         taken.measure(chunk, st.Measure(IT, quantity, op, amount, place, opposite=past))
         return
-    asked, fits = taken.quantity or ("headway" if is_time else "gap"), side in _SIDES_OF_ACTORS.get(taken.quantity, ())
-    if target.other is None or not fits or is_time is (asked == "gap"):
+    asked = named or ("headway" if is_time else "gap")
+    fits = side in ("behind", "ahead") or (named is not None and side in ("to", "with"))
+    if target.other is None or not fits or asked not in BETWEEN_TWO:
         raise taken.left_over(target.chunk)
     behind = side == "ahead"  # it is the other one that is behind
-    if asked == "gap" and side == "to":
+    if asked == "gap" and side in ("to", "with"):
         behind = taken.people.rear(clause.subject or EGO, target.other, chunk.quote) == target.other
     one, other = (target.other, IT) if behind else (IT, target.other)
     taken.measure(chunk, st.Measure(one, st.Quantity(asked), op, amount, other=other))

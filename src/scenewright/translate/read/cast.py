@@ -14,10 +14,10 @@ from scenewright.program.expressions import CONFLICT_LANDMARKS
 from scenewright.program.types import EGO
 from scenewright.translate import story as st
 from scenewright.translate.phrases import OTHERWISE
-from scenewright.translate.read.chunks import Chunk, nearest_words, word_as
+from scenewright.translate.read.chunks import MARKS, Chunk, nearest_words, word_as
 
-_NUMERALS = set("123456789")
-_FURTHER = {"second", "third", "fourth", *_NUMERALS - {"1"}}
+_MARKS = {each.lower() for each in MARKS}
+_FURTHER = {"second", "third", "fourth", *_MARKS - {"1", "a"}}
 NEW = "somebody new"
 FIRST = 1  # the number of the first hero, with whom the ego's conflict point is where nothing says so
 ASIDE, CAR = "set it aside", "a car of that name"
@@ -53,11 +53,11 @@ class Cast:
                 self.tell_way(actor, {trait.kind: trait.value})
         return actor
 
-    def whom(self, chunk: Chunk, subject: int | None) -> int:
-        """Return the one that "it" means who is not the subject."""
+    def whom(self, quote: st.Quote, subject: int | None) -> int:
+        """Return the only one who is meant and is not the subject: of the sentence, else of all."""
         others = set(self.mentioned) - {subject} or set(self.actors) - {subject}
         if len(others) != 1:
-            self.refuse("it is not clear who is meant", chunk.quote)
+            self.refuse("it is not clear who is meant", quote)
         return others.pop()
 
     def where(self, chunk: Chunk) -> st.Place:
@@ -126,7 +126,7 @@ class Cast:
         named, last = list(dict.fromkeys(self.mentioned)), [] if self.subject is None else [self.subject]
         found = named or last
         if acts and EGO in found:  # which is driven by the policy under test
-            found = [each for each in named if each != EGO] or [each for each in last if each != EGO] or found
+            found = [each for each in named if each != EGO] or [each.id for each in self.heroes] or found
         if not found:
             self.refuse("it is not clear who is meant", chunk.quote)
         return self._one_of([*found], "Who is 'it'?", len(found) - 1, chunk.quote) or 0
@@ -157,30 +157,28 @@ class Cast:
         number = self._one_of(some, f"Who is '{chunk.text}'?", None, chunk.quote)
         if number is None:
             number = self._called(chunk, self._free_name(chunk.value, words), chunk.value)
-        self.known_by.setdefault(number, set()).update(words, {chunk.value} if words & _NUMERALS else ())
+        self.known_by.setdefault(number, set()).update(words, {chunk.value} if words & _MARKS else ())
         return number
 
     def _fits(self, actor: st.Actor, chunk: Chunk, words: set[str]) -> bool:
         """Whether a mention may mean somebody that is known: of its kind, or "the car" where there is only one."""
         kind = "car" if chunk.value == "hero" else chunk.value
-        general = chunk.value == "car" and (len(self.heroes) == 1 or any(e.kind == "other" for e in chunk.traits))
+        said = self.text[: min(each.start for each in (chunk, *chunk.traits))].lower().split()[-1:]
+        is_only = len(self.heroes) == 1 and {*said} & {"the", "this", "that"}
+        general = chunk.value == "car" and (is_only or any(each.kind == "other" for each in chunk.traits))
         named = chunk.value in (actor.name, *self.known_by.get(actor.id, ()))
         named |= actor.kind == kind and chunk.value != "hero"
         strange = words - self.known_by.get(actor.id, set())
-        return (named or (general and not chunk.is_new)) and not (
-            strange and (self.known_by.get(actor.id) or strange & _FURTHER)
-        )
+        differs = strange and (self.known_by.get(actor.id) or strange & _FURTHER)
+        return (named or (general and not chunk.is_new)) and not differs
 
     def _free_name(self, name: str, words: set[str]) -> str:
         """Return a name that nobody has: that of its kind, with what describes it, with a number."""
         taken = {each.name for each in self.actors.values()}
-        numerals = sorted(words & _NUMERALS)
-        described = " ".join((*sorted(words - _NUMERALS), name, *numerals))
-        names = (
-            *([] if numerals else [name]),
-            described,
-            *(f"{described} {number}" for number in range(2, len(taken) + 3)),
-        )
+        numerals = sorted(words & _MARKS)
+        described = " ".join((*sorted(words - _MARKS), name, *numerals))
+        numbered = (f"{described} {number}" for number in range(2, len(taken) + 3))
+        names = (*([] if numerals else [name]), described, *numbered)
         return next(each for each in names if each not in taken)
 
     def _called(self, chunk: Chunk, name: str, kind: str) -> int:
@@ -235,9 +233,14 @@ class Cast:
             self.questions.append(st.Question(slot, text, tuple(alternatives), default, quote))
         return "" if default is None else alternatives[default]
 
-    def known_words(self, chunks: Sequence[Chunk]) -> tuple[list[Chunk], bool]:
-        """Ask what unknown words mean: return the chunks with those that are answered, and whether some are not."""
-        known, is_open = [], False
+    @property
+    def is_open(self) -> bool:
+        """Whether something must be asked first, such as what a word means."""
+        return any(each.default is None for each in self.questions)
+
+    def known_words(self, chunks: Sequence[Chunk]) -> list[Chunk]:
+        """Ask what unknown words mean: return the chunks with those that are answered."""
+        known = list[Chunk]()
         for chunk in chunks:
             if chunk.kind == "share":  # what changes a number is never set aside
                 self.refuse(f"'{chunk.text}' could not be understood here")
@@ -249,12 +252,11 @@ class Cast:
             meant = {f"it means '{word}'": word for word in nearest_words(chunk.text)}
             slot, asked = f"word {chunk.text.lower()}", f"What is '{chunk.text}'?"
             answer = self.ask(slot, asked, [*meant, CAR, ASIDE], None, chunk.quote)
-            is_open |= not answer
             if answer in meant:
                 known.append(word_as(chunk, meant[answer]))
             elif answer == CAR:
                 known.append(replace(chunk, kind="name"))
-        return known, is_open
+        return known
 
     def refuse(self, message: str, quote: st.Quote | None = None, fix: str = OTHERWISE) -> NoReturn:
         """Raise the error that says what could not be read, of the sentence where nothing nearer is known."""

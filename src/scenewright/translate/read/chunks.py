@@ -14,6 +14,7 @@ from difflib import get_close_matches
 from fractions import Fraction
 from functools import lru_cache
 from importlib.resources import files
+from itertools import pairwise
 
 from scenewright.translate.phrases import ORDINALS
 from scenewright.translate.story import Amount, Quote
@@ -25,7 +26,7 @@ _TOKEN = re.compile(
     r"|(?P<number>(?<![\w.])-?\d+(?:\.\d+|/[1-9]\d*)?)"
     r"|\{(?P<braced>[A-Za-z]\w*)\}"
     r"|(?P<snake>[A-Za-z][A-Za-z0-9]*_\w*)"
-    r"|(?P<word>[^\W\d_][^\W_]*(?:[-’'](?!s\b|ve\b|ll\b)[^\W\d_]+)*)"
+    r"|(?P<word>[^\W\d_]+(?:[-’'](?!s\b|ve\b|ll\b)[^\W\d_]+)*)"
     r"|(?P<possessive>['’]s\b|['’](?=\s))"
     r"|(?P<short>['’](?:ve|ll)\b)"
     r"|(?P<mark>[.,;:!?()\[\]–—\"“”])"
@@ -41,11 +42,9 @@ _PART = re.compile(
     r"(?:(\w+) and (?=a\b))?(?:(an?|one|two|three)[ -])?(half|thirds?|quarters?)\b(?: of\b)?(?: an?\b)?", re.IGNORECASE
 )
 _PARTS = {"half": Fraction(1, 2), "third": Fraction(1, 3), "quarter": Fraction(1, 4)}
-_RANGE = re.compile(r"(\d+(?:\.\d+)?)(?: ?([A-Za-z]\S*))?(?:\s*[-–—]\s*| to )(?=(\d+(?:\.\d+)?))")  # "20-25 m"
-_BETWEEN = re.compile(r"between (\d+(?:\.\d+)?)() and (?=(\d+(?:\.\d+)?))", re.IGNORECASE)
 _ENDS = ".;!?"
 _QUOTES = '"“”'
-_NUMERALS = tuple("123456789")  # that tell one "hero 2" from others
+MARKS = frozenset("123456789ABCDEFGH")  # that tell one "hero 2" or "car B" from others
 _TRAITS = ("heading", "relation", "quality", "other", "turn")
 _LONG = 8  # letters; of shorter words too many differ from another word by one letter
 _SPELLED = 4  # letters; a shorter word is another one, not one that is misspelled, and few slips are the first letter
@@ -234,7 +233,7 @@ def _without_when(links: list[Chunk], said: list[Chunk]) -> list[Chunk]:
 def _described(chunks: list[Chunk]) -> list[Chunk]:
     """Give somebody the words that describe it, and leave out what means nothing: ``an oncoming red car``."""
     found: list[Chunk] = []
-    for chunk in chunks:
+    for chunk in _ranged(chunks):
         if chunk.kind == "actor":
             first = len(found)
             while first and found[first - 1].kind in _TRAITS:
@@ -242,19 +241,42 @@ def _described(chunks: list[Chunk]) -> list[Chunk]:
             is_new = first > 0 and (found[first - 1].kind, found[first - 1].value) == ("det", "a")
             chunk = replace(chunk, traits=tuple(found[first:]), is_new=is_new)
             del found[first - is_new :]
-        if chunk.kind == "no unit" and chunk.text in _NUMERALS and found and found[-1].kind == "actor":  # "hero 2"
+        if chunk.text in MARKS and found and found[-1].kind == "actor" and found[-1].value != "ego":  # "hero 2"
             traits = (*found[-1].traits, replace(chunk, kind="quality"))
-            if found[-1].value != "ego":
-                chunk = replace(found.pop(), end=chunk.end, traits=traits)
+            chunk = replace(found.pop(), end=chunk.end, traits=traits)
         if chunk.kind == "name" and found and found[-1].kind == "actor":  # "the car 'blue'"
             chunk = replace(chunk, traits=(found.pop(),))
         found.append(chunk)
+    for at, (each, following) in enumerate(pairwise(found)):
+        if each.text == "in" and (following.kind == "bound" or following.amount is not None):
+            found[at] = replace(each, kind="side", value="in")  # "brakes to a stop in 4 s"
     another = {each for each in found if (each.kind, each.value) == ("det", "a") and len(each.text) > 3}
     for at, each in enumerate(found):
         if each.kind == "or bound" and found[at - 1].kind == "amount":  # "5 m/s or more"
             found[at - 1 : at + 1] = [replace(each, kind="bound"), found[at - 1]]
     kept = [each for each in found if each in another or each.kind not in ("filler", "det")]
     return [replace(each, kind="unknown") if each in another else each for each in kept]  # "another stop line"
+
+
+def _ranged(chunks: list[Chunk]) -> list[Chunk]:
+    """Say "20-25 m" and "between 20 m and 25 m" as at least 20 m and at most 25 m; "from 20 to 25 m" is a change."""
+    found = [*chunks]
+    for at in range(len(chunks) - 3, -1, -1):
+        low, joint, high = found[at : at + 3]
+        lead, own, top = found[at - 1].value if at else "", low.amount, high.amount
+        if low.kind == "no unit" and top is not None and low.value[0].isdigit():
+            own = replace(top, value=Fraction(low.value), quote=low.quote)
+        if own is None or top is None or own.dimension != top.dimension:
+            continue
+        is_between, goes_to = (lead, joint.value) == ("between", "and"), low.amount is None and joint.value == "to"
+        if goes_to and lead == "from":
+            found[at] = replace(low, kind="amount", amount=own)
+        elif (is_between or goes_to or joint.text in tuple("-–—")) and (not own.si or not top.si or own.si < top.si):
+            found[at - is_between : at + 3] = [
+                replace(low, kind="bound", value=">="), replace(low, kind="amount", amount=own),
+                replace(joint, kind="joint", value="and"), replace(joint, kind="bound", value="<="), high,
+            ]  # fmt: skip
+    return found
 
 
 def _chunks(text: str) -> Iterator[Chunk]:
@@ -265,10 +287,6 @@ def _chunks(text: str) -> Iterator[Chunk]:
     end = 0
     for index, token in enumerate(tokens):
         if token.start() >= end:
-            if two := _range(text, token) or _numbered(token):
-                yield from two
-                end = two[-1].end
-                continue
             chunk = _lanes(text, token.start()) or _part(text, token) or _amount(text, token)
             chunk = chunk or _phrase(text, tokens, words, index) or _plain(token)
             end = chunk.end
@@ -279,39 +297,6 @@ def _chunks(text: str) -> Iterator[Chunk]:
 def _lanes(text: str, at: int) -> Chunk | None:
     match = _LANES.match(text, at)
     return None if match is None else Chunk("lanes", match[1], at, match.end(), match[0])
-
-
-def _range(text: str, token: re.Match[str]) -> list[Chunk]:
-    """Return "20-25 m" and "between 20 and 25 m" as at least 20 m and at most 25 m; nothing where no range is here."""
-    found = _RANGE.match(text, token.start()) or _BETWEEN.match(text, token.start())
-    high = None if found is None else _amount(text, _token_at(text, found.end()))
-    if found is None or high is None or high.amount is None:
-        return []
-    is_change = text[: token.start()].rstrip().lower().endswith("from") or (found[2] and " to " in found[0])
-    if is_change or found[2] not in (None, "", high.amount.unit) or Fraction(found[1]) >= Fraction(found[3]):
-        return []
-    start, end, said = found.start(1), found.end(1), found[1]
-    low = replace(high.amount, value=Fraction(said), quote=Quote(start, end, said))
-    words = [Chunk(kind, value, at, at, said) for kind, value, at, said in (
-        ("bound", ">=", start, "at least"), ("joint", "and", high.start, "and"),
-        ("bound", "<=", high.start, "at most"))]  # fmt: skip
-    return [words[0], Chunk("amount", said, start, end, said, low), *words[1:], high]
-
-
-def _numbered(token: re.Match[str]) -> list[Chunk]:
-    """Return "POV2" as "POV 2"."""
-    said, at = token.group(), token.end() - 1
-    known = vocabulary().phrases.get(said[:-1].lower(), ()) if token["word"] and said[-1] in _NUMERALS else ()
-    kinds = [(kind, value) for words, kind, value in known if len(words) == 1]
-    if not kinds or kinds[0] == ("actor", "ego") or kinds[0][0] != "actor":
-        return []
-    return [Chunk(*kinds[0], token.start(), at, said[:-1]), Chunk("no unit", said[-1], at, at + 1, said[-1])]
-
-
-def _token_at(text: str, at: int) -> re.Match[str]:
-    found = _TOKEN.match(text, at)
-    assert found is not None
-    return found
 
 
 def _part(text: str, token: re.Match[str]) -> Chunk | None:

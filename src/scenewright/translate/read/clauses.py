@@ -17,6 +17,7 @@ from scenewright.translate.compile import COMPASS, counted_down
 from scenewright.translate.phrases import OTHERWISE, amount
 from scenewright.translate.read.cast import Cast
 from scenewright.translate.read.chunks import Chunk
+from scenewright.units import Dimension
 
 IT = -1  # the subject, in a measure of a clause that is still being read
 PEOPLE = ("actor", "name", "pronoun", "relative")
@@ -25,11 +26,17 @@ OPERATORS: dict[str, st.Operator] = {"==": "==", ">=": ">=", "<=": "<=", ">": ">
 _REACHES = ("reach", "get", "got", "come", "came", "arriv")
 _CONFLICT = st.Place("turn")  # where a driveway joins a road
 _SIDES = ("before", "behind", "from", "to", "ahead", "past")  # of a place that an amount is counted to
+_WHERE = tuple(("side", side) for side in (*_SIDES, "at"))
 _OF_AMOUNTS = ("amount", "bound", "quantity", "kept", "no unit")
 _AFTER = {  # what may stand behind a side that says no more than that it belongs there: "to pass it", "at a speed of"
     "to": (*_OF_AMOUNTS, "event", "turn", "deed", "state", "phase", "mood"), "at": _OF_AMOUNTS, "of": _OF_AMOUNTS,
-    "for": _OF_AMOUNTS, "with": (*_OF_AMOUNTS, "turn", "deed"), "by": ("turn", "deed"),
+    "for": _OF_AMOUNTS, "in": _OF_AMOUNTS, "with": (*_OF_AMOUNTS, "turn", "deed"), "by": ("turn", "deed"),
 }  # fmt: skip
+_DIMENSIONS: dict[str, Dimension] = {
+    "speed": "speed", "gap": "length", "headway": "time", "time to collision": "time", "time to arrival": "time",
+    "rate": "acceleration", "acceleration": "acceleration", "deceleration": "acceleration",
+}  # fmt: skip
+BETWEEN_TWO = ("gap", "headway", "time to collision")
 _INITIAL = (("at", "link", "start"), ("with", "link", "start"))  # "with an initial speed of"
 
 
@@ -50,6 +57,7 @@ class Clause:
     phase: str | None = None
     ordinal: int = 0
     measures: list[st.Measure] = field(default_factory=list)
+    begins: list[st.Measure] = field(default_factory=list)  # what is so where its deed begins
     joined: list[st.Compound] = field(default_factory=list)  # by "either", "both", "if": of whomever they are
     rates: list[st.Measure] = field(default_factory=list)
     times: dict[str, list[tuple[st.Operator, st.Amount]]] = field(default_factory=dict)
@@ -77,6 +85,7 @@ class Clause:
     def agree(self) -> None:
         """Refuse two amounts for one thing."""
         agree((*self.measures, *self.rates), self.quote)
+        agree(self.begins, self.quote)
         for several in self.times.values():
             agree((st.Measure(IT, st.Quantity.ARRIVAL, *each) for each in several), self.quote)
 
@@ -132,7 +141,7 @@ class Taken:
     ranges: set[int] = field(default_factory=set)  # amounts that end a range: counted to what the one before is
     targets: list[Target] = field(default_factory=list)
     states: set[str] = field(default_factory=set)
-    quantity: str | None = None
+    quantities: dict[Dimension, str] = field(default_factory=dict)  # that are named, by what they are amounts of
     subject_at: int = 0
     pair: tuple[int, int] | None = None  # between whom a gap is
 
@@ -142,9 +151,9 @@ class Taken:
 
     def take(self, chunk: Chunk) -> None:
         """Take the chunk at `at`, and those behind it that belong to it."""
-        clause, value = self.clause, chunk.value
+        clause, value, reaches = self.clause, chunk.value, bool(self.states & {"pass", "reach"})
         match chunk.kind:
-            case "pronoun" if value == "it" and self.states & {"pass", "reach"}:
+            case "pronoun" if value == "it" and reaches:
                 self.targets.append(Target(self.at, "at", chunk, self.people.where(chunk)))
             case _ if self._says_no_more(chunk):
                 pass
@@ -173,12 +182,10 @@ class Taken:
                 self._target(value)
             case "side":
                 self._side(chunk)
-            case "place" if self.states & {"pass", "reach"} or self.peek()[0] in ("be", "event"):
+            case "place" if reaches or self.peek()[0] in ("be", "event"):
                 self.at -= 1
                 self._target("at")
-            case "area" if value == "driveway" and (
-                self.states & {"pass", "reach"} or (clause.subject is None and self.peek(2)[1] == "ahead")
-            ):
+            case "area" if value == "driveway" and (reaches or (clause.subject is None and self.peek(2)[1] == "ahead")):
                 self.targets.append(Target(self.at, "at", chunk, _CONFLICT))
             case "deed" if clause.deed is None:
                 clause.deed = value
@@ -186,9 +193,7 @@ class Taken:
                 clause.phase = value
             case "ordinal" if all(each.kind != "ordinal" for each in self.chunks[: self.at]):
                 clause.ordinal = int(value)
-            case "refrains" if self.peek()[0] in ("amount", "near") or (
-                self.peek()[0] == "side" and self.peek()[1] in (*_SIDES, "at")
-            ):
+            case "refrains" if self.peek()[0] in ("amount", "near") or self.peek() in _WHERE:
                 raise self.left_over(self.chunks[self.at + 1])  # "without stopping at the junction": it is there or not
             case "standstill" | "open" | "kept" | "order" | "yields" | "insists" | "refrains":
                 clause.flags.add(value)
@@ -199,10 +204,11 @@ class Taken:
             case "relation":
                 clause.relations.append(st.Relation(value, EGO, chunk.quote))
             case "state" | "event":
-                self.states.add("reach" if value == "pass" and chunk.text.lower().startswith(_REACHES) else value)
+                may = value == "pass" and (chunk.text.lower().startswith(_REACHES) or chunk.text.endswith(" point"))
+                self.states.add("reach" if may else value)
                 clause.notes |= {"event", value} if chunk.kind == "event" else {value}
-            case "quantity" if self.quantity in (None, "rate", value):
-                self.quantity = value
+            case "quantity" if self.quantities.get(_DIMENSIONS[value], "rate") in ("rate", value):
+                self.quantities[_DIMENSIONS[value]] = value
             case "factor" if value == "as fast as" or self.peek() == ("side", "than"):
                 self._factor(chunk)
             case "joins" if self.targets and all(e.value == "ego" for e in self.chunks[self.at :] if e.kind == "actor"):
@@ -249,13 +255,21 @@ class Taken:
         amount = chunk.amount
         if amount is None:
             raise self.left_over(chunk)
-        lasts = lead == ("side", "for") or (lead == ("joint", "and") and "for" in self.clause.times)
-        lasts |= lead == ("deed", st.Verb.STAND) and self.peek()[0] != "side"  # "waits 2 s"
-        if amount.dimension == "time" and lasts:
-            self.clause.times.setdefault("for", []).append((op, amount))
-        elif (self.peek(1)[1], self.peek(2)[1]) == ("after", "the start"):
-            self.clause.times.setdefault("after the start", []).append((op, amount))
-            self.at += 2
+        led = [each for each in ("for", "in")
+               if lead == ("side", each) or (lead == ("joint", "and") and each in self.clause.times)]  # fmt: skip
+        within = "in" in led or (self.peek(-1)[1] == "falls" and self.peek()[0] != "side")
+        lasts = "for" in led or (lead == ("deed", st.Verb.STAND) and self.peek()[0] != "side")  # "waits 2 s"
+        kinds = {  # of times, each with how many words behind belong to it
+            "for": (lasts, 0), "later": (self.peek() == ("link", "later"), 1),  # "brakes 1 s later"
+            "in": (within and self.clause.deed is not None, 0),  # "stops in 4 s", "within 4 s"
+            "after the start": ((self.peek(1)[1], self.peek(2)[1]) == ("after", "the start"), 2),
+        }  # fmt: skip
+        kind = next((each for each, (fits, _) in kinds.items() if fits), "")
+        if kind and amount.dimension == "time":
+            op = "<=" if kind == "in" and self.peek(-1)[1] == "falls" else op
+            self.clause.flags -= {"falls"} if kind == "in" else set()
+            self.clause.times.setdefault(kind, []).append((op, amount))
+            self.at += kinds[kind][1]
         else:
             both = [self.peek(back)[0] for back in (-1, -2, -3)] == ["bound", "joint", "amount"]
             self.ranges |= {self.at} if both else set()  # "at least 20 m and at most 25 m before it"
@@ -272,45 +286,41 @@ class Taken:
             if self.people.who(self.chunks[self.at]) == own:
                 raise self.left_over(chunk)
             self.at += 2 if (self.peek()[0], self.peek(2)[0]) == ("possessive", "thing") else 0
-        elif side == "between" and kind == "amount":
-            self._range(chunk)
-        elif side == "between":
+        elif side == "between" or (side == "of" and kind in PEOPLE and self.peek(-1)[0] == "quantity"):
             self._between(chunk)
         elif kind in ("place", *PEOPLE):
             self._target(side)
         elif (kind, value) == ("area", "driveway") and side in _SIDES and self.peek(-1)[0] == "amount":
             self.at += 1
             self.targets.append(Target(self.at - 1, side, self.chunks[self.at], _CONFLICT))
-        elif side == "to" and kind in ("amount", "bound", "no unit") and self.clause.deed is not None:
+        elif (side, kind) == ("from", "amount") and self.clause.deed is not None:  # "brakes from 13 m/s to 8 m/s"
+            self.at += 1
+            amount = self.chunks[self.at].amount
+            if amount is None or amount.dimension != "speed":
+                raise self.left_over(chunk)
+            self.clause.begins.append(st.Measure(IT, st.Quantity.SPEED, "==", amount, quote=chunk.quote))
+        elif side == "to" and (kind in ("amount", "bound") or value == "speed") and self.clause.deed is not None:
             self.clause.flags.add("to")
         elif side == "to" and kind == "amount" and self.clause.phase is None and not self.amounts:
             raise self.left_over(chunk)  # "but only to 10 m/s"
         elif not (self.road(side) or kind in _AFTER.get(side, ()) or (side, kind, value) in _INITIAL):
             raise self.left_over(chunk)
 
-    def _range(self, chunk: Chunk) -> None:
-        """Take "between 15 m and 20 m": at least one, at most the other."""
-        low, high = self.at + 1, self.at + 3
-        two = [self.chunks[at].amount for at in (low, high) if at < len(self.chunks)]
-        if self.peek(2)[1] != "and" or len(two) < 2 or two[0] is None or two[1] is None:
-            raise self.left_over(chunk)
-        if two[0].dimension != two[1].dimension:
-            raise self.left_over(chunk)
-        self.amounts += [(low, ">=", self.chunks[low]), (high, "<=", self.chunks[high])]
-        self.ranges.add(high)
-        self.at = high
-
     def _between(self, chunk: Chunk) -> None:
-        """Take "between the ego and the hero", "between them"."""
+        """Take "between them", "between the ego and the hero", "of the ego and the hero", or "of the ego" alone."""
         if self.pair is not None:
             raise self.left_over(chunk)
         self.at += 1
         if self.peek(0)[0] == "pair":
             self.pair = self.people.pair(self.chunks[self.at])
             return
-        if [self.peek(ahead)[0] in PEOPLE for ahead in (0, 2)] != [True, True] or self.peek()[1] != "and":
+        both = [self.peek(ahead)[0] in PEOPLE for ahead in (0, 2)] == [True, True] and self.peek()[1] == "and"
+        if not both and (chunk.value != "of" or self.clause.subject is not None):
             raise self.left_over(chunk)
         one = self.people.who(self.chunks[self.at])
+        if not both:
+            self.clause.subject, self.subject_at = one, self.at
+            return
         self.at += 2
         self.pair = one, self.people.who(self.chunks[self.at])
 

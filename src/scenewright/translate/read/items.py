@@ -16,7 +16,7 @@ from scenewright.translate import story as st
 from scenewright.translate.read.attach import read_clause
 from scenewright.translate.read.cast import Cast
 from scenewright.translate.read.chunks import Chunk
-from scenewright.translate.read.clauses import OPERATORS, PEOPLE, Clause
+from scenewright.translate.read.clauses import BETWEEN_TWO, OPERATORS, PEOPLE, Clause
 
 ORDERS = ("before", "after", "no later than", "earlier than", "no earlier than")
 LINKS = ("when", "until", "from", *ORDERS[2:])
@@ -32,7 +32,7 @@ _PREDICATES = {
 }  # fmt: skip
 _BEGINS_A_CLAUSE = {
     *PEOPLE, "be", "joint", "phase", "deed", "state", "event", "origin", "turn", "mood", "then_headed", "pair",
-    "kept", "order", "yields", "insists", "refrains", "open",
+    "kept", "order", "yields", "insists", "refrains", "open", "quantity",
 }  # fmt: skip
 _ACTS = ("deed", "order", "yields", "insists", "refrains")
 _FRONTED = ("side", "turn", "state", "origin", "heading", "area")
@@ -102,11 +102,6 @@ def segments_of(chunks: list[Chunk], is_led: bool = False) -> list[Segment]:
             else:
                 raise UnknownWordsError("it is not clear how much before or after this is", found=chunk.text)
         elif chunk.kind == "link" and chunk.value in LINKS:
-            if found[-1].chunks and (found[-1].chunks[-1].kind, found[-1].chunks[-1].value) == (
-                "bound",
-                "==",
-            ):  # "exactly when"
-                found[-1].chunks.pop()
             found.append(Segment(chunk.value))
         else:
             found[-1].chunks.append(chunk)
@@ -115,7 +110,7 @@ def segments_of(chunks: list[Chunk], is_led: bool = False) -> list[Segment]:
             event = max(at for at, chunk in enumerate(before.chunks) if chunk.kind == "event")
             segment.chunks = [*segment.chunks[:1], *before.chunks[event:]]
     for segment in found:
-        while segment.chunks and segment.chunks[-1].text in (",", "and") and segment.link != "when":
+        while segment.chunks and segment.chunks[-1].value in (",", "and", "==") and segment.link != "when":
             segment.chunks.pop()
     return found
 
@@ -138,9 +133,6 @@ def margins_of(found: Sequence[Margin]) -> list[Margin]:
 def _margins(chunks: list[Chunk]) -> list[Margin]:
     """Take amounts of time off the end of a segment: ``the ego turns at least 2 s | after ...``."""
     found: list[Margin] = []
-    if len(chunks) > 3 and [each.value for each in chunks[-4::2]] == ["between", "and"]:
-        at_least, at_most = (replace(chunks[-1], kind="bound", value=value) for value in (">=", "<="))
-        chunks[-4:] = [at_least, chunks[-3], chunks[-2], at_most, chunks[-1]]
     while chunks and (amount := chunks[-1].amount) is not None and amount.dimension == "time":
         chunks.pop()
         bound = chunks.pop().value if chunks and chunks[-1].kind == "bound" else "=="
@@ -255,13 +247,17 @@ class _Items:
         while self.at < len(self.chunks):
             chunk = self.chunks[self.at]
             parts = chunk.kind == "comma" or (chunk.kind == "joint" and chunk.value in ("and", "or"))
-            between = self.at > 1 and self.chunks[self.at - 2].value == "between"
+            before = [each.value for each in self.chunks[max(self.at - 3, start) : self.at - 1]]
+            between = before[-1:] == ["between"] or (before[-1:] == ["of"] and before[0] in BETWEEN_TWO)
+            between &= self.chunks[self.at - 1].kind in PEOPLE
             closes = any(self.is_joint(link) for link in inside)
             fronted = self._is_fronted(start)
             if self.at > start and (closes or (parts and not (between or fronted) and self._begins(self.at + 1))):
                 break
             self.at += 1
         own = [chunk for chunk in self.chunks[start : self.at] if chunk.kind != "comma"]
+        if [each.kind for each in own if each.kind not in ("be", "bound")] in ([who, "amount"] for who in PEOPLE):
+            own += self._to_come(own[-1])
         if [chunk.value for chunk in own[:2]] == ["it", "is"] and own[-1].value == "the start":
             own = own[2:]  # nobody: "it is 5 s after the start"
         if subjects or (own and own[0].kind in PEOPLE):
@@ -269,9 +265,20 @@ class _Items:
         for each in self.both[:-1]:
             self.others.append(self._read([each, *own]))
         self.before = self._read([*self.both[-1:], *own])
+        self.before.notes |= {"both"} if self.both else set()
         if any(each.subject == self.before.subject for each in self.others):
             self.people.refuse("one and the same is named twice", self.before.quote)
         return self.before
+
+    def _to_come(self, last: Chunk) -> Sequence[Chunk]:
+        """Return what the next clause counts its amount to: "the ego is 3 s and the hero 4 s from it"."""
+        following = [each for each in self.chunks[self.at :] if each.kind not in ("be", "bound")]
+        amounts = [each.amount for each in (last, *following[2:3]) if each.amount is not None]
+        kinds = [each.kind for each in following[1:4]]
+        same = len(amounts) == 2 and amounts[0].dimension == amounts[1].dimension
+        if not same or following[0].value != "and" or kinds[0] not in PEOPLE or kinds[1:] != ["amount", "side"]:
+            return []
+        return [*takewhile(lambda each: each.kind not in ("comma", "joint", "link"), following[3:])]
 
     def _read(self, own: list[Chunk]) -> Clause:
         clause = read_clause(own, self.people, self.subject if self.before is None else self.before.subject)
@@ -307,4 +314,5 @@ class _Items:
         skipped = (("joint", "and"), ("link", "then"), ("link", "same"), ("comma", ","))
         while at < len(self.chunks) and (self.chunks[at].kind, self.chunks[at].value.split(" ")[0]) in skipped:
             at += 1
+        at += 2 * ([each.value for each in self.chunks[at + 1 : at + 2]] == ["later"])  # "and 1 s later it speeds up"
         return at < len(self.chunks) and self.chunks[at].kind in _BEGINS_A_CLAUSE

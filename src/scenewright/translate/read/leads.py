@@ -32,11 +32,10 @@ class Leads:
     delay: Margin | None = None
 
 
-def leads_of(story: Narrative, chunks: Sequence[Chunk]) -> Leads:
+def leads_of(story: Narrative, chunks: Sequence[Chunk], words: Set[str] = frozenset()) -> Leads:
     """Take what says when a sentence is, at its front or behind its subject: ``then``, ``initially``, ``2 s later``."""
-    found = Leads([])
-    found.delay, chunks = _delay_of(chunks)
-    found.words |= {"then"} if found.delay is not None else set()
+    delay, chunks = _delay_of(chunks)
+    found = Leads([], {*words, *(["then"] if delay is not None else [])}, "", delay)
     joined = any(chunk.value == "if" for chunk in chunks)  # its "then" is another
     for chunk, following in zip_longest(chunks, chunks[1:]):
         kept = found.chunks
@@ -61,13 +60,11 @@ def _delay_of(chunks: Sequence[Chunk]) -> tuple[Margin | None, Sequence[Chunk]]:
     kinds = [(each.kind, each.value) for each in first] + [("", "")] * 3
     bound = OPERATORS.get(kinds[0][1]) if kinds[0][0] == "bound" else None
     at = 1 if bound else 0
-    kind, value = kinds[at + 1]
+    (kind, value), amount, taken = kinds[at + 1], None, first
     if kinds[at][0] == "amount" and kind == "link" and (value == "later" or value.startswith("then")):
         amount, taken = first[at].amount, first[: at + 2]
     elif kinds[0] == ("side", "after") and kinds[1][0] == "amount" and kinds[2][0] in PEOPLE:
         amount, taken = first[1].amount, first[:2]
-    else:
-        return None, chunks
     if amount is None or amount.dimension != "time":
         return None, chunks
     return (bound or "==", amount), [each for each in chunks if each not in taken]
@@ -103,10 +100,8 @@ def told_before(story: Narrative, clause: Clause) -> Doing | None:
         return None
     if own.turns and verb in CHANGES and not clause.says_more_than("deed", "rates"):
         ways = ["after its turn", "while it turns"]
-        if (
-            story.ask(f"turn {clause.quote.start}", f"When is this: {clause.quote.text}", ways, 0, clause.quote)
-            == ways[1]
-        ):
+        asked = f"When is this: {clause.quote.text}"
+        if story.ask(f"turn {clause.quote.start}", asked, ways, 0, clause.quote) == ways[1]:
             own.verb = verb or own.verb
             return own
     is_open = own.ends is None and not own.rests and own.verb in (st.Verb.DRIVE, st.Verb.SPEED_UP)
@@ -114,13 +109,7 @@ def told_before(story: Narrative, clause: Clause) -> Doing | None:
     return own if passes or (own.verb == verb and verb in CHANGES) else None
 
 
-def moment_led_to(
-    story: Narrative,
-    clause: Clause,
-    leads: Leads,
-    pending: int | None,
-    is_tied: bool,
-) -> int | None:
+def moment_led_to(story: Narrative, clause: Clause, leads: Leads, pending: int | None, is_tied: bool) -> int | None:
     """Return the moment at which a deed begins as the words in front of it say; None where it follows its own last.
 
     Who acts after somebody else did, and is not tied to that by a word, would be at it from the start.

@@ -197,8 +197,8 @@ class Narrative(Cast):
             item.flags -= {"falls"}  # what is reached is so when it is
             if item.is_event and "has" in item.notes:  # "once the ego has passed it": then, or sooner
                 item.measures = [replace(each, op=">=") for each in item.measures]
-            if until is not None and (item.deed, item.subject) == ("stop", until):  # "until it comes to a stop"
-                item.deed, item.measures = None, [st.standstill(until), *item.measures]
+            if item.deed == "stop" and item.subject in (until, EGO):  # "until it comes to a stop"; the ego has no deeds
+                item.deed, item.measures = None, [st.standstill(item.subject or EGO), *item.measures]
         events = [item for item in items if item.deed is not None]
         conditions = self.conditions([item for item in items if item not in events], "times")
         if not conditions and not any(each.deed or each.times for each in items):
@@ -240,7 +240,7 @@ class Narrative(Cast):
             self.add(moment, clause.measures)
             return moment
         if clause.subject != EGO:
-            self.refuse("nothing was told of this event before", clause.quote)
+            self.refuse("nothing was told of this event before", clause.quote, "say what is done until then")
         return self.new_moment(clause.measures)
 
     def tell(self, clause: Clause) -> None:
@@ -276,9 +276,7 @@ class Narrative(Cast):
                 self.doings.append(Doing(actor, first, st.START, moment, quote=self.quote))
                 self.assumptions += [f"{self.actor(actor).name} stands still until then"] * waits
             begins = st.START if moment is None else moment
-        elif before.ends is None and not (
-            before.rests or (before.lasts and moment is not None and before.verb in CHANGES)
-        ):
+        elif before.ends is None and not (before.rests or (before.lasts and moment and before.verb in CHANGES)):
             begins = before.ends = self.new_moment() if moment is None else moment
         else:
             begins = self._go_on(before, verb, moment, leads)
@@ -287,9 +285,8 @@ class Narrative(Cast):
 
     def _go_on(self, before: Doing, verb: str, moment: int | None, leads: set[str]) -> int:
         """Return where a deed begins after one whose end is known; what lies between is standing or driving on."""
-        if (
-            before.rests and before.ends is None and (verb == st.Verb.BRAKE or "passes" in leads)
-        ):  # who stands does neither
+        goes_on = verb == st.Verb.BRAKE or "passes" in leads  # who stands does neither
+        if before.rests and before.ends is None and goes_on:
             ways = ["for a while", "to a standstill"]
             quote = before.quote or self.quote
             asked = f"How far does {self.actor(before.actor).name} brake: {quote.text}"

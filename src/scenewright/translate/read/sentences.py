@@ -19,7 +19,7 @@ from scenewright.translate.compile import DRIVEN, refused_deed, refused_kind
 from scenewright.translate.read.acts import acts_of, lasting
 from scenewright.translate.read.chunks import Chunk, sentences
 from scenewright.translate.read.clauses import PEOPLE, Clause, agree, is_upper
-from scenewright.translate.read.items import ORDERS, Margin, Segment, items_of, parted, parts_of, segments_of
+from scenewright.translate.read.items import ORDERS, Segment, items_of, parted, parts_of, segments_of
 from scenewright.translate.read.leads import Leads, last_of, leads_of, moment_led_to, same_time, told_before
 from scenewright.translate.read.narrative import CHANGES, Doing, Narrative, steady, take_labels
 
@@ -31,7 +31,9 @@ _COMMENT = {*_SAYS_NOTHING, "comment", "actor", "relative", "yields", "insists",
 def read(text: str, answers: Mapping[str, str] | None = None, name: str = "description") -> st.Story:
     """Return the story that `text` tells; what `answers` does not answer, by slot, takes its default and is noted."""
     narrative = Narrative(text, answers or {})
-    for chunks in sentences(take_labels(text, narrative)):
+    told = sentences(take_labels(text, narrative))
+    names_ego = any((chunk.kind, chunk.value) == ("actor", "ego") for chunks in told for chunk in chunks)
+    for chunks in told:
         narrative.quote = st.Quote(chunks[0].start, chunks[-1].end, text[chunks[0].start : chunks[-1].end])
         narrative.assumptions += [f"'{chunk.text}' is read with '{word}'" for chunk in chunks for word in chunk.slips]
         kinds = {chunk.kind for chunk in chunks}
@@ -40,25 +42,23 @@ def read(text: str, answers: Mapping[str, str] | None = None, name: str = "descr
             narrative.asides.append(narrative.quote)
             continue
         chunks = [chunk for chunk in chunks if chunk.kind not in ("harmless", "again")]
-        is_open = False
         try:
             for part in parts_of(chunks):
-                sentence = _Sentence(narrative, part, narrative.pending, {"again"} & kinds)
+                sentence = _Sentence(narrative, part, narrative.pending, Leads([], {"again"} & kinds))
                 narrative.pending = None
-                try:
-                    sentence.read()
-                finally:
-                    is_open |= sentence.is_open
+                sentence.read()
             narrative.settle()
         except TranslationError as error:
-            if is_open:
-                continue  # it is asked about first
-            told = _unknown_to_programs(chunks) or error
-            told.place = told.place or Where(name, text, narrative.quote.span)
-            raise told from None
+            if (unknown := _unknown_to_programs(chunks)) is None and narrative.is_open:
+                continue  # that is asked about first
+            error = unknown or error
+            error.place = error.place or Where(name, text, narrative.quote.span)
+            raise error from None
     try:
         return narrative.story()
     except TranslationError as error:
+        if narrative.is_open and names_ego:
+            return st.Story((), questions=tuple(narrative.questions))  # that is asked about first
         at = text.find(error.found or text)
         error.place = error.place or Where(name, text, Span(at, at + len(error.found or text)))
         raise
@@ -69,16 +69,13 @@ class _Sentence:
     story: Narrative
     chunks: list[Chunk]
     pending: int | None  # a moment that was told just before, and nobody did anything at it
-    leads: set[str] = field(default_factory=set)
-    delay: Margin | None = None  # after what was told last: "2 s later"
+    led: Leads
     moment: int | None = None  # that it tells
-    own: str = ""  # the deed of its own that it comes after
     lasting: list[st.Condition] = field(default_factory=list)  # what is so as long as it is done
-    is_open: bool = False  # a word in it must be asked about first
 
     def read(self) -> None:
         self.story.mentioned, self.story.doer = [], None
-        self.chunks, self.is_open = self.story.known_words(self.chunks)
+        self.chunks = self.story.known_words(self.chunks)
         self.story.named = [chunk for chunk in self.chunks if chunk.kind in PEOPLE]
         how = next((chunk for chunk in self.chunks if chunk.kind == "link" and chunk.value in _HOW), None)
         if self.chunks and self.chunks[0].kind == "ego's order":
@@ -86,18 +83,17 @@ class _Sentence:
         elif how is not None:
             self._hold(how)
         elif self.chunks:
-            said = leads_of(self.story, self.chunks)
-            self.chunks, self.own, self.delay = said.chunks, said.own, said.delay
-            self.leads |= said.words
-            known, is_later = len(self.story.moments), bool(self.leads & {"then", "later"})
+            self.led = leads_of(self.story, self.chunks, self.led.words)
+            self.chunks = self.led.chunks
+            known, is_later = len(self.story.moments), bool(self.led.words & {"then", "later"})
             self._cut()
-            if self.delay is not None:
+            if self.led.delay is not None:
                 self.story.refuse("it is not clear what is so much later", fix="say who does what then")
             self.story.later |= {*range(known, len(self.story.moments))} if is_later else set()
 
     def _cut(self) -> None:
         """Cut the sentence into what happens, the moment at which it does, and the rest."""
-        story, (main, *rest) = self.story, segments_of(self.chunks, bool(self.leads))
+        story, (main, *rest) = self.story, segments_of(self.chunks, bool(self.led.words))
         if not main.chunks and rest and rest[0].link in ("before", "after"):
             rest[0].chunks, main.chunks = parted(rest[0].chunks)  # "2 s after ..., the hero brakes"
             rest[0].is_first = True
@@ -136,8 +132,8 @@ class _Sentence:
         items = [each for each in items if each.says_more_than()] or items[:1]
         does = any("shall" in each.notes and not each.says_more_than() for each in items)  # "so does the hero"
         timed = any(each.times for each in when or ())
-        is_told = when is not None or self.pending is not None or bool(self.leads & {"then", "at once", "same time"})
-        items = acts_of(story, items, is_told and not timed)
+        is_led = bool(self.led.words & {"then", "at once", "same time"})
+        items = acts_of(story, items, (is_led or when is not None or self.pending is not None) and not timed)
         if not items and when is None:
             if rest or does:
                 story.refuse("it is not said what is done")
@@ -154,16 +150,11 @@ class _Sentence:
             if stands in first.measures:  # "it brakes at 2 m/s^2. It stands 10 m before ..."
                 first.deed, first.measures = "stop", [each for each in first.measures if each != stands]
         tells_time = any(each.link in ORDERS for each in rest) or "after the start" in first.times
-        if (
-            tells_time
-            and story.doings
-            and first.subject != EGO
-            and first.is_event
-            and story.moment_with(first.measures, one=True) is None
-        ):
+        is_new = first.subject != EGO and first.is_event and story.moment_with(first.measures, one=True) is None
+        if tells_time and story.doings and is_new:
             first.deed = st.Verb.DRIVE  # "... It passes the conflict point before the ego"
         # "The hero begins to brake 2 s after ..." speaks of a deed that was told before.
-        known = first.phase and story.doing_of(first) is not None and when is None and not self.leads
+        known = first.phase and story.doing_of(first) is not None and when is None and not self.led.words
         if first.deed and len(items) > 1:  # "it brakes to a stop, waits for 3 s and drives on"
             for item, following in zip_longest(items, items[1:]):
                 self._main([item], when, [] if following else rest)
@@ -173,9 +164,9 @@ class _Sentence:
                     story.refuse("two deeds at one time are told of one")
                 follows = following.subject == item.subject and item.deed is not None
                 if follows or "then" in following.notes:
-                    self.leads, when, self.pending = {"then"}, None, None
+                    self.led.words, when, self.pending = {"then"}, None, None
                 elif when is None and following.subject != item.subject:  # "then one brakes and another speeds up"
-                    self.leads = {"same time"}
+                    self.led.words = {"same time"}
         elif first.deed and not (known and tells_time):
             self._deed(first, when, rest)
         elif when is not None:
@@ -188,6 +179,7 @@ class _Sentence:
             elif not story.is_owned(moment):
                 story.since = moment
             story.add(moment, story.conditions(items))
+            story.subject = next((each.subject for each in reversed(items) if each.subject is not None), story.subject)
             self._orders(moment, rest)
         elif tells_time:
             if len(items) > 1:
@@ -209,11 +201,11 @@ class _Sentence:
 
     def _facts(self, items: list[Clause]) -> None:
         """Take what is so at the start, all the while, later, or of somebody's way."""
-        story = self.story
+        story, words = self.story, self.led.words
         for item in items:
             story.tell(item)
             if item.subject is not None:
-                story.subject = item.subject
+                story.subject = None if "both" in item.notes else item.subject
                 acts = any(doing.actor == item.subject for doing in story.doings)
                 if "kept" in item.flags and acts:  # "brakes and keeps its speed"
                     story.refuse("it is not clear when a speed is kept", item.quote, "say it before what is done")
@@ -225,25 +217,24 @@ class _Sentence:
                 item.measures = []
         conditions = story.conditions(items)
         measures = [each for each in conditions if isinstance(each, st.Measure)]
-        if not conditions or "start" in self.leads:
+        if not conditions or "start" in words:
             story.pending = self.pending  # what happens then is still to come
         if not conditions:
             if all(each.subject is None for each in items):
                 story.refuse("nothing is said here")
-        elif "meanwhile" in self.leads and story.doings and len(measures) == len(conditions):
+        elif "meanwhile" in words and story.doings and len(measures) == len(conditions):
             story.doings[-1].throughout += measures
-        elif "then" in self.leads and story.doings and {each.subject for each in items} == {EGO}:
-            led = Leads([], self.leads, self.own, self.delay)  # "Then the ego passes ..."
-            story.since = moment_led_to(story, items[0], led, self.pending, False)
+        elif "then" in words and story.doings and {each.subject for each in items} == {EGO}:
+            story.since = moment_led_to(story, items[0], self.led, self.pending, False)  # "Then the ego passes ..."
             story.add(story.since or st.START, conditions)
-            self.delay = None
-        elif "later" in self.leads:
+            self.led.delay = None
+        elif "later" in words:
             story.since = story.new_moment(conditions)
-        elif "same time" in self.leads and (at := same_time(story, self.pending, self.leads)) is not None:
+        elif "same time" in words and (at := same_time(story, self.pending, words)) is not None:
             story.add(at, conditions)
             story.pending = self.pending
-        elif "start" in self.leads or not (story.doings or self.pending is not None or self.leads - {"meanwhile"}):
-            if "start" not in self.leads and any("event" in each.notes and each.measures for each in items):
+        elif "start" in words or not (story.doings or self.pending is not None or words - {"meanwhile"}):
+            if "start" not in words and any("event" in each.notes and each.measures for each in items):
                 self._when_unclear()  # "the hero crosses the stop line at 5 m/s"
             story.add(st.START, conditions)
         else:
@@ -257,27 +248,30 @@ class _Sentence:
         story = self.story
         if clause.subject is not None and clause.subject != EGO:
             story.tell(clause)
-        more = clause.says_more_than("deed", "phase", "measures", "rates", "times", "flags")
+        more = clause.says_more_than("deed", "phase", "measures", "rates", "times", "flags", "begins")
         if clause.subject is None or clause.deed is None or more or clause.flags & {"first", "way", "start", "falls"}:
             story.refuse("it is not clear what is done here")
         if clause.phase == "finishes" or "after the start" in clause.times:
             story.refuse("nothing was told of this deed before")
         if sum(each.link == "until" for each in rest) > 1:
             story.refuse("two ends of one deed are told")
-        if turned := self.own.partition("turn ")[2]:  # "after turning left, it ..."
+        if turned := self.led.own.partition("turn ")[2]:  # "after turning left, it ..."
             story.tell_way(clause.subject, {"turn": turned})
         story.awaits = None if when is None and self.pending is not None else story.awaits
-        again = None if when is not None or self.pending is not None or self.leads else told_before(story, clause)
+        again = None if when is not None or self.pending is not None or self.led.words else told_before(story, clause)
         begins, held, ends = self._shares(clause)
         is_tied = bool(begins) or any(each.link in ORDERS for each in rest)
         moment: int | None
-        if when is not None:
-            moment = self._moment(when)
-        elif again is not None or (self.delay is None and self.pending is not None):
-            moment = self.pending
+        pending = self.pending if when is None else self._moment(when)
+        for delay in clause.times.pop("later", ()):  # "brakes 1 s later"
+            if self.led.delay is not None:
+                story.refuse("it is not clear what is so much later", clause.quote)
+            self.led.delay = delay
+        if again is not None or (self.led.delay is None and pending is not None):
+            moment = pending
         else:
-            after = Leads([], self.leads, self.own, self.delay)
-            moment, self.delay, self.own = moment_led_to(story, clause, after, self.pending, is_tied), None, ""
+            moment = moment_led_to(story, clause, self.led, pending, is_tied)
+            self.led.delay, self.led.own = None, ""
         if "kept" in clause.flags and not held:  # "continues at a constant speed"
             if clause.deed != st.Verb.DRIVE:
                 story.refuse("it is not clear what is kept here")
@@ -306,11 +300,9 @@ class _Sentence:
         fronts = [each for each in orders if begun or each.link == "after" or each.is_first
                   or (each.margins and not ends)]  # fmt: skip
         verb = {"stop": st.Verb.BRAKE, "turn": st.Verb.DRIVE, "go first": st.Verb.DRIVE}.get(clause.deed, clause.deed)
-        led = self.leads | ({"passes"} if verb == st.Verb.DRIVE and "event" in clause.notes else set())
+        led = self.led.words | ({"passes"} if verb == st.Verb.DRIVE and "event" in clause.notes else set())
         led |= {"then", "apart"} if drives_on or fronts else set()  # this says when it begins, not what it did before
-        led |= (
-            {"then"} if orders and verb in CHANGES and "start" not in led else set()
-        )  # nobody is at it from the start
+        led |= {"then"} if orders and verb in CHANGES and "start" not in led else set()  # not from the start
         doing = again or story.begin(clause.subject, verb, moment, led)
         doing.turns |= clause.deed == "turn"
         story.subject = clause.subject
@@ -328,7 +320,8 @@ class _Sentence:
         if again is not None:
             agree(doing.throughout, clause.quote)
         rests = clause.deed == "stop" or "standstill" in clause.flags
-        doing.lasts += [] if rests else dict.fromkeys(clause.times.get("for", ()))
+        lasts = (*([] if rests else clause.times.get("for", ())), *clause.times.get("in", ()))
+        doing.lasts += dict.fromkeys(lasts)
         if "while" in clause.flags and ends:
             story.refuse("it is not clear when this ends")
         self._end(doing, clause, ends, next((each for each in rest if each.link == "until"), None))
@@ -355,7 +348,7 @@ class _Sentence:
     def _shares(self, clause: Clause) -> tuple[list[st.Measure], list[st.Measure], list[st.Measure]]:
         """Return what a deed's own clause says of its beginning, of the deed throughout, and of its end."""
         rests = clause.deed == "stop" or "standstill" in clause.flags
-        begins, held, ends = list[st.Measure](), list[st.Measure](), [st.standstill(clause.subject or EGO)] * rests
+        begins, held, ends = [*clause.begins], list[st.Measure](), [st.standstill(clause.subject or EGO)] * rests
         for measure in clause.measures:
             fast = measure.quantity is st.Quantity.SPEED
             if rests and measure.quantity is st.Quantity.ARRIVAL:
@@ -418,6 +411,8 @@ class _Sentence:
                 self.story.refuse("it is not clear before or after what")
             other = self._event_of(segment.chunks)
             first, second = (other, moment) if segment.link in ("after", "no earlier than") else (moment, other)
+            if first == second:
+                self.story.refuse("one and the same is told to be before itself")
             if st.START in (first, second):
                 self.story.refuse("this is told of what is so from the start: nothing was before that")
             for op, margin in segment.margins or [(">=" if segment.link.startswith("no ") else ">", None)]:
