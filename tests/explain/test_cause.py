@@ -194,3 +194,35 @@ A1x(t2) == conflict_point + 8
     assert found.kind == "prediction"
     broken = max(result.run.replans, key=lambda tick: tick.tolerance)
     assert found.evidence["planned_s"] < broken.time_s
+
+
+TOO_NEAR = """
+Actor 0 (ego):
+- W
+- [t0, go, t1, go, t2]
+
+Actor 1 (hero):
+- W
+- [t0, go, t1, dec, t2]
+
+Constraints:
+A0v(t0) == 14
+A0x(t0) == 100
+A1x(t0) == 115
+A1v(t0) == 4
+A1(t1) == 4
+A1a(dec) == -2
+A1v(t2) == 0
+"""
+
+
+def test_what_comes_after_a_crash_is_not_told_as_its_cause() -> None:
+    """The hero, at full acceleration from the start, comes to its greatest speed seconds after it was hit."""
+    result = orchestrate(Request(TOO_NEAR, ego="constant", takes=1))
+    assert result.status == "failure"
+    assert result.verdict is not None
+    assert result.verdict.aftermath.collision is not None
+    told = cause(result)
+    assert (told.kind, told.evidence["misses"]) == ("plan", "no_collision")
+    assert told.evidence["time_s"] <= result.verdict.aftermath.collision.time_s
+    assert result.verdict.aftermath.collision.in_words() in told.text

@@ -79,11 +79,12 @@ def test_limit_is_one_that_the_hero_was_at() -> None:
     limits = world.limits[HERO]
     assert limit_reached(world, run, hero, 0.0, 60.0) is None or hardest >= 0.9 * float(limits.brake_max_mpss)
     states.accel_mps2[100:120] = -float(limits.brake_max_mpss)
-    found = limit_reached(world, run, hero, 1.0, 4.0)
+    found = limit_reached(world, run, hero, 1.9, 2.5)
     assert found is not None
     assert (found.evidence["limit"], found.evidence["hero"]) == ("braking", "hero")
     assert found.evidence["for_s"] == pytest.approx(0.4)
     assert limit_reached(world, run, hero, 0.0, 1.0) is None, "not before"
+    assert limit_reached(world, run, hero, 1.0, 3.0) is None, "it could have done more for most of the time"
 
 
 def test_ego_that_is_never_at_all_of_its_side_at_once() -> None:

@@ -139,6 +139,7 @@ def test_braking_that_is_told_at_a_place_and_never_comes_is_missed() -> None:
     said = f"{AT_5_S}\nA1x(t2) == conflict_point"
     ego, drives = Motion(0.0, 10.0, []), Motion(10.0, 10.0, [(30.0, 0.0)])
     play = Play(text("[t0, go, t1, go, t2, dec, t3]", said), ego, drives, 5.0, CROSSING)
-    assert failed(judge(play.case()), LOOSE) == {"hero_dec_onset"}
+    assert failed(judge(play.case()), LOOSE) == {"hero_dec_onset", "hero_dec"}
+    assert "not judged" in judge(play.case()).condition("hero_dec").text, "of no braking nothing holds while it brakes"
     brakes = replace(play, hero=Motion(10.0, 10.0, [(9.0, 0.0), (9.0, -2.0)]))
     assert failed(judge(brakes.case()), TIGHT) == set()

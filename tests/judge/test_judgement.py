@@ -128,8 +128,8 @@ SPOILED: dict[str, tuple[Play, Callable[[ActorTrace], ActorTrace] | None, set[st
     "does not speed up": (
         NOT_YIELDING.with_hero(pieces=[]).with_ego(pieces=[(YIELDS_AT_S, 0.0), (1.0, -2.5)]),
         None,
-        {"hero_onset"},
-        {"hero_onset"},
+        {"hero_onset", "hero_acc"},
+        {"hero_onset", "hero_acc"},
     ),
     "never goes again": (
         GOES_AFTER.with_hero(pieces=[(YIELDS_AT_S, 0.0), (56.0 / 12.0, STOP_28)]),

@@ -124,3 +124,35 @@ def test_bounds_of_a_stretch_of_time_have_ways_out_in_their_own_unit(line: str, 
     found = [each for each in suggest(question, {"probe"}) if each.what.endswith(probe) and each.unit == unit]
     assert len(found) == 1
     assert found[0].nearest == pytest.approx(nearest, abs=0.3)
+
+
+CLOSE = """Actor 0 (ego):
+- W
+- [t0, go, t1, go, t2]
+
+Actor 1 (hero):
+- E, N
+- [t0, go, t1, acc, t2]
+
+Constraints:
+tie: A0(t1) == A1(t1)
+ego_near: A0x(t1) == conflict_point - 38.9
+near: A1x(t1) == conflict_point - 30.9
+slow: A1v(t1) <= 5.7
+there: A1x(t2) == conflict_point
+ego_there: A0x(t2) == conflict_point
+first: A1(t2) <= A0(t2) - 0.9
+soon: A0(t2) - A0(t1) <= 1.8
+"""
+
+
+def test_every_number_that_clashes_has_its_share_of_the_search() -> None:
+    """At 18 m/s the hero takes 1.7 s, and is to be 0.9 s before the ego; numbers late in the list are bisected too."""
+    found = orchestrate(Request(CLOSE, ego="idm"), until="check").feasibility
+    assert found is not None
+    own = {clash.id for clash in found.clashes if clash.formula is not None}
+    assert own <= {"tie", "near", "slow", "there", "first", "soon"}
+    assert len(own) < 8, "where the ego is, and that it passes, matters not"
+    (soon,) = [each for each in found.suggestions if each.value == 1.8]
+    assert answer(CLOSE.replace("<= 1.8", f"<= {soon.nearest}")) == "feasible"
+    assert soon.nearest < 5.5

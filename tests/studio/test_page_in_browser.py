@@ -5,15 +5,19 @@ from __future__ import annotations
 import dataclasses
 import json
 from collections.abc import Iterator
+from itertools import combinations
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
+from scenewright.orchestrate import orchestrate
+from scenewright.request import Request
 from scenewright.studio.page import write_page
 from scenewright.trace.files import read_trace, write_trace
 from scenewright.trace.model import ActorTrace, Trace
+from stories import STORIES
 
 playwright = pytest.importorskip("playwright.sync_api", reason="playwright is not installed")
 
@@ -292,3 +296,20 @@ def test_routine_checks_are_folded_away_and_failed_ones_are_not(browser: Any, ru
     view.page.click("#routine")
     assert view.page.locator('tr[data-id="route_4"]').is_visible()
     view.context.close()
+
+
+def test_labels_of_the_plan_view_hide_none_of_each_other_at_the_trigger(browser: Any, tmp_path: Path) -> None:
+    """Two measures that end at one place, a landmark's name and two vehicles' tags, all near to each other."""
+    result = orchestrate(Request(STORIES["yields, distance"], ego="constant", takes=1, out=tmp_path / "run"))
+    assert result.verdict is not None
+    view = Opened(browser, write_page(tmp_path / "run"))
+    view.page.evaluate(f"scenewright.seek({result.verdict.facts['trigger_time_s']['hero']})")
+    boxes = view.page.evaluate(
+        """[...document.querySelectorAll('#stage rect.pill')].filter((rect) => !rect.closest('[hidden], .off'))
+        .map((rect) => rect.getBoundingClientRect()).map((box) => [box.left, box.top, box.right, box.bottom])"""
+    )
+    view.context.close()
+    assert len(boxes) >= 5
+    for first, second in combinations(boxes, 2):
+        apart = first[2] <= second[0] or second[2] <= first[0] or first[3] <= second[1] or second[3] <= first[1]
+        assert apart, (first, second)

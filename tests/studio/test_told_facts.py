@@ -46,6 +46,30 @@ def test_what_went_wrong_is_told() -> None:
     assert [moment for _, moment in told] == [None, 3.0, None, 4.5, 4.0]
 
 
+def test_who_came_near_is_named_and_nothing_is_told_of_nothing() -> None:
+    side = {"side": "the van is 5 m behind the hero", "met": False, "error": 14.0, "unit": "m", "time_s": 3.0}
+    even = {"onset_s": 1.0, "end_s": 3.0, "mean_acceleration_mpss": -2.0, "max_deviation_mpss": 0.001}
+    told = told_facts(
+        {
+            "closest": [{"who": "hero", "actors": ["van"], **side}, {"who": "pair", "actors": ["hero", "van"], **side}],
+            "interaction": {"hero": even},
+            "kinematics": {"ego": {"speed": 9.0, "acceleration": -0.0, "deceleration": 0.1, "lateral": 0.0}},
+        }
+    )
+    assert [sentence for sentence, _ in told] == [
+        "Van, by itself, came to within 14 m: the van is 5 m behind the hero.",
+        "Hero and van, together, came to within 14 m: the van is 5 m behind the hero.",
+        "Hero did what it was to do from 1.00 to 3.00 s, at −2.00 m/s² throughout.",
+        "At most ego drove at 9.0 m/s, sped up by 0.0 m/s², braked by 0.0 m/s², and felt 0.0 m/s² sideways.",
+    ]
+
+
+def test_sides_that_came_apart_are_told_only_where_the_trigger_never_came() -> None:
+    facts = {"trigger_time_s": {"hero": 4.0}, "trigger_sides_apart_s": 5.13}
+    assert len(told_facts({**facts, "trigger_came": {"hero": True}})) == 1
+    assert any("5.13 s apart" in told for told, _ in told_facts({**facts, "trigger_came": {"hero": False}}))
+
+
 def test_nothing_known_is_nothing_told() -> None:
     assert told_facts({}) == []
     missed = {"trigger_time_s": {"hero": 4.0}, "trigger_came": {"hero": False}}

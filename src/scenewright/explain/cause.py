@@ -6,7 +6,7 @@ What leaves: a `Cause`. It changes no verdict.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import asdict
 
 from scenewright.explain.cut_short import cut_short, never_came
@@ -21,6 +21,7 @@ from scenewright.explain.evidence import (
     orders_with_ego,
 )
 from scenewright.explain.in_way import hero_in_way
+from scenewright.judge.aftermath import Collision
 from scenewright.judge.tolerance import Tolerance
 from scenewright.judge.verdict import Cause, CauseKind, Condition, Verdict
 from scenewright.plan.planner import GOOD
@@ -33,6 +34,8 @@ from scenewright.solve.feasibility import Feasibility
 from scenewright.translate.lines import in_words
 from scenewright.translate.phrases import called
 
+_CLEAR = ("no_collision", "heroes_apart")  # conditions that are missed at the moment of a crash
+
 
 def cause_of(world: World, run: Run, verdict: Verdict, tolerance: Tolerance, proof: Feasibility | None) -> Cause:
     """Return why a run missed at `tolerance`: the first of these that the evidence shows.
@@ -41,7 +44,8 @@ def cause_of(world: World, run: Run, verdict: Verdict, tolerance: Tolerance, pro
        condition on it alone failed, or it crashed with a hero after that one's trigger and before another's. Where it
        slowed down for a hero, that is in the *way*, and it is never the ego's doing; nor is a crash before the trigger.
     2. *order*: all was well but who came first.
-    3. *authority*: from the last plan on that would have done, a hero was at a limit of its motion.
+    3. *authority*: from the last plan on that would have done, a hero was at limits of its motion for most of a piece.
+       That stands against what was asked of places, speeds and times, not against what any run owes.
     4. *prediction*: the ego did not drive as that plan foresaw.
     5. *plan*: none of these; so it was planned. A run that fails by how it begins, or by nothing but what lies beyond
        its end, is of this kind before all that came of it.
@@ -64,7 +68,9 @@ def cause_of(world: World, run: Run, verdict: Verdict, tolerance: Tolerance, pro
     begun = [each for each in missed if each.id == "start"] or [each for each in missed if each.kind == "initial"]
     if begun and (begun[0].id == "start" or len(begun) == len(missed)):
         return _cause("plan", _begun_so(run, begun[0]))
-    hero = _hero(world.scene.program, failed)
+    crash_s = min((each.measured for each in missed if each.id in _CLEAR and each.measured is not None), default=None)
+    hit = verdict.aftermath.collision if crash_s is not None else None
+    hero = _hero(world.scene.program, failed, hit.actors if hit is not None else ())
     ended = cut_short(world, run, hero)
     knots_s = run.last_plan.profiles[hero.id].knot_times_s
     acted_s = knots_s.get(world.structure.trigger_knot(hero.id) or "", run.trace.duration_s)
@@ -75,20 +81,22 @@ def cause_of(world: World, run: Run, verdict: Verdict, tolerance: Tolerance, pro
     # What is asked of both after the trigger is missed by how the ego then drives; all else by what came to be at it.
     later = len(failed) == len(missed) and all(world.structure.roles[each.id] is Role.OUTCOME for each in failed)
     until_s = min(max(knots_s.values()) if later else acted_s, run.trace.duration_s)
+    if crash_s is not None and crash_s < until_s:  # what comes after a crash mends and explains nothing
+        until_s, later = crash_s, True
     # What was to last and was broken no later plan mends, however good the rest of it is.
     lasting = any(isinstance(node, Temporal) for each in failed for node in walk(each.formula))
     worst = max((tick for tick in run.replans if tick.time_s < until_s), key=lambda tick: tick.tolerance, default=None)
     good = last_good(run, worst.time_s if lasting and worst is not None and worst.tolerance > GOOD else until_s)
     otherwise = good and foreseen_otherwise(world, run, good, until_s, hero, at_trigger=not later)
     # Where no plan ever did it, what stands against it may lie in what was to follow.
-    to_s = until_s if good else min(max(knots_s.values()), run.trace.duration_s)
-    limit = limit_reached(world, run, hero, good.time_s if good else 0.0, to_s)
+    to_s = until_s if good or crash_s is not None else min(max(knots_s.values()), run.trace.duration_s)
+    limit = limit_reached(world, run, hero, good.time_s if good else 0.0, to_s) if failed else None
     if limit is not None and otherwise:
         why = in_way or f"the ego drove otherwise than foreseen from {otherwise.evidence['since_s']:.1f} s on"
         return _cause("authority", Finding(f"{limit.text}, and {why}", {**otherwise.evidence, **limit.evidence}))
     if limit is not None:
         return _cause("authority", limit)
-    left = otherwise or ended or _planned_so(world, run, hero, until_s, missed, does_all=not failed)
+    left = otherwise or ended or _planned_so(run, hero, until_s, missed, hit, does_all=not failed)
     if in_way is not None:
         left = Finding(f"{left.text}; {in_way}", {**left.evidence, "in_way": asdict(in_way)})
     return _cause("prediction" if otherwise else "plan", left)
@@ -126,11 +134,12 @@ def _denied(
     return None
 
 
-def _hero(program: Program, failed: Sequence[Constraint]) -> Actor:
-    """Return the hero that what failed speaks of, else the first."""
+def _hero(program: Program, failed: Sequence[Constraint], crashed: Collection[str]) -> Actor:
+    """Return the hero that what failed speaks of, else one that crashed, else the first."""
     spoken_of = {actor for constraint in failed for actor in actors_of(constraint.formula)}
     heroes = list(program.heroes)
-    return next((hero for hero in heroes if hero.id in spoken_of), heroes[0])
+    named = [hero for hero in heroes if hero.id in spoken_of] or [hero for hero in heroes if hero.name in crashed]
+    return (named or heroes)[0]
 
 
 def _begun_so(run: Run, condition: Condition) -> Finding:
@@ -147,7 +156,7 @@ def _begun_so(run: Run, condition: Condition) -> Finding:
 
 
 def _planned_so(
-    world: World, run: Run, hero: Actor, until_s: float, missed: Sequence[Condition], *, does_all: bool
+    run: Run, hero: Actor, until_s: float, missed: Sequence[Condition], hit: Collision | None, *, does_all: bool
 ) -> Finding:
     """Return what is left: it was planned so, though nothing stood against it.
 
@@ -161,11 +170,11 @@ def _planned_so(
     if does_all or last.tolerance <= GOOD:
         return Finding(
             f"the last plan, of {last.time_s:.1f} s, does all that was asked of {called(hero.name)}, as far as it was "
-            f'foreseen; what came of it misses "{missed[0].text}"',
+            f'foreseen; what came of it misses "{missed[0].text}"' + (f": {hit.in_words()}" if hit else ""),
             {"hero": hero.name, "time_s": last.time_s, "missed": last.tolerance, "misses": missed[0].id},
         )
     return Finding(
-        f"no plan was found that does all that was asked of {called(hero.name)}, though it was at no limit of its "
-        f"motion: the last one, of {last.time_s:.1f} s, missed by {last.tolerance:.1f} tight tolerances",
+        f"no plan was found that does all that was asked of {called(hero.name)}, though for most of the time it was "
+        f"within its limits: the last one, of {last.time_s:.1f} s, missed by {last.tolerance:.1f} tight tolerances",
         {"hero": hero.name, "time_s": last.time_s, "missed": last.tolerance},
     )

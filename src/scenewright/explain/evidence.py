@@ -149,7 +149,8 @@ def _is_off(foreseen: tuple[float, float, float], ego: ActorTrace, time_s: float
 def limit_reached(world: World, run: Run, hero: Actor, from_s: float, to_s: float) -> Finding | None:
     """Return which limit of its motion a hero was at for the longest time between two instants; None for none.
 
-    What lasts less than a tick is not answered by anybody, and does not count.
+    It counts where the hero was at limits for most of a piece, or of what of it lies between the two: whoever is
+    within them for longer could have done more. What lasts less than a tick is not answered by anybody.
     """
     states, limits, route = run.trace.actors[hero.name], world.limits[hero.id], world.scene.routes[hero.id]
     bends = np.abs([route.path.curvature(float(s)) for s in states.s_m])
@@ -163,7 +164,11 @@ def limit_reached(world: World, run: Run, hero: Actor, from_s: float, to_s: floa
     found = {name: np.flatnonzero(within & (values >= _REACHED * most)) for name, (values, most, _) in reached.items()}
     name = max(found, key=lambda name: len(found[name]))
     for_s = len(found[name]) * world.rates.step_s
-    if for_s < (world.rates.replan_s or world.rates.step_s):
+    at_limit = np.isin(np.arange(len(within)), np.concatenate([*found.values()]))
+    knots_s = np.sort([*run.last_plan.profiles[hero.id].knot_times_s.values()])
+    piece = np.where(within, np.searchsorted(knots_s, states.time_s, side="right"), -1)
+    throughout = any(at_limit[piece == each].mean() > 0.5 for each in set(piece[within].tolist()))
+    if for_s < (world.rates.replan_s or world.rates.step_s) or not throughout:
         return None
     values, most, unit = reached[name]
     worst = int(found[name][np.argmax(values[found[name]])])

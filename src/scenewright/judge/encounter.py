@@ -50,16 +50,20 @@ def encounter_facts(case: Case, measured: Measured) -> dict[str, Any]:
     }
     told = told_formulas(case.program)
     starts = {(actor.id, actor.sketch.knots[0]) for actor in case.program.actors}
+    apart_s: list[float] = []
     for instant in dict.fromkeys(case.structure.triggers.values()):
+        sides: list[dict[str, Any]] = []
         for part in sides_of(case, instant, starts):
             evidence = _closest(case, part, told.get(part) or print_expression(part), instant, measured)
             if evidence is None:
                 continue
             actors = _actors(part)
             who = "pair" if len(actors) > 1 else "ego" if actors == {EGO} else "hero"
-            facts["closest"].append({"who": who, **evidence})
+            sides.append({"who": who, "actors": [case.name(actor) for actor in sorted(actors)], **evidence})
             facts[f"{who}_never_met_condition"] |= not evidence["met"]
-    facts["trigger_sides_apart_s"] = _apart(facts["closest"])
+        facts["closest"] += sides
+        apart_s += [apart for apart in [_apart(sides)] if apart is not None]
+    facts["trigger_sides_apart_s"] = max(apart_s, default=None)
     return facts
 
 
@@ -100,6 +104,6 @@ def _closest(
 
 
 def _apart(closest: list[dict[str, Any]]) -> float | None:
-    """Return how far apart in time the sides were met; None where one of them never was."""
+    """Return how far apart in time the sides of one trigger were met; None where one of them never was."""
     times = [side["time_s"] for side in closest]
     return max(times) - min(times) if len(times) > 1 and all(side["met"] for side in closest) else None

@@ -137,7 +137,10 @@ def _piece(case: Case, measured: Measured, hero: Actor, index: int) -> Iterator[
         yield unjudged(f"{hero.name}_{name}", "interaction", f"{called(hero.name)} {doing}", "it never came to it")
         return
     timeline = case.timelines[hero.id]
-    if kind in SIGN_OF:
+    if kind in SIGN_OF and not _did(case, measured, hero, index, span):
+        reason = f"{called(hero.name)} did not {_VERBS[kind]} then"
+        yield unjudged(f"{hero.name}_{name}", "interaction", f"{called(hero.name)} {doing}", reason)
+    elif kind in SIGN_OF:
         speeds = timeline.speed(timeline.instants(*span))
         # The largest change against the sense of the piece, between any two of its instants.
         best = np.minimum.accumulate(speeds) if kind is PieceKind.DEC else np.maximum.accumulate(speeds)
@@ -157,6 +160,17 @@ def _piece(case: Case, measured: Measured, hero: Actor, index: int) -> Iterator[
             yield _goes_again(case, hero, span)
     elif kind is PieceKind.DEC and _ends_standing(case, measured, hero, index):
         yield _stands(case, hero, span[0])
+
+
+def _did(case: Case, measured: Measured, hero: Actor, index: int, span: Span) -> bool:
+    """Whether somebody braked or sped up at all in a piece that is to be that; who stands is not asked to brake."""
+    kind = hero.sketch.pieces[index]
+    if hero.sketch.knots[index] == case.structure.trigger_knot(hero.id):
+        return measured.onsets.get(hero.id) is not None
+    if kind is PieceKind.DEC and hero.sketch.pieces[max(0, index - 1)] is PieceKind.STOP:
+        return True
+    phase = phase_at(case.timelines[hero.id], span[0], SIGN_OF[kind], case.program.manner)
+    return phase is not None and phase.start_s < span[1]
 
 
 def _ends_standing(case: Case, measured: Measured, hero: Actor, index: int) -> bool:

@@ -6,7 +6,7 @@ that value there is a witness.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Iterator
+from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
@@ -22,8 +22,9 @@ from scenewright.units import SI_SYMBOL, Dimension, decimal_fraction, format_fra
 
 # For one value, and for all, in the seconds of a search, which counts its work: a busy machine proposes the same. Of
 # 160 values that do half are seen to with one first guess, and one in thirty takes more than six. Chosen.
-_GUESSES, _ALL_S = 12, 3.0
-_BISECTIONS = 10
+_GUESSES, _FEW, _ALL_S = 12, 2, 3.0
+_NEARER_S, _ROUNDED_S = 1.2, 0.3  # of that for bisecting what is found, and for rounding it. Chosen
+_BISECTIONS, _NEAR = 10, Fraction(1, 30)  # and how near it is to be, of the way to it. Chosen
 _SUGGESTIONS = 4
 _DECIMALS = 2, 3, 1  # of what is easy to read, tried in turn
 _FROM_ZERO = ("length", "time")  # a speed or a rate of nothing is another thing than a small one
@@ -84,9 +85,9 @@ class _Budget:
 
     left_s: float = _ALL_S
 
-    def witness(self, question: Question) -> Witness | None:
+    def witness(self, question: Question, guesses: int = _GUESSES) -> Witness | None:
         """Look for a witness, and count it. What has none so soon is not proposed: no proof is needed for that."""
-        found, took_s = shown(question, _GUESSES)
+        found, took_s = shown(question, guesses)
         self.left_s -= took_s
         return found
 
@@ -99,14 +100,17 @@ def suggest(question: Question, core: set[str]) -> Iterator[Suggestion]:
     core
         Ids of the constraints that clash; only their numbers are tried.
     """
-    found, budget = 0, _Budget()
+    budget, found = _Budget(), list[tuple[_Tried, list[Fraction]]]()
     for lever in levers(question.scene, core):
-        if found >= _SUGGESTIONS or budget.left_s <= 0.0:
-            return
-        nearest = _nearest(question, lever, budget)
-        if nearest is not None:
-            found += 1
-            yield Suggestion(lever.what, float(lever.value), float(nearest), lever.unit)
+        if len(found) >= _SUGGESTIONS or budget.left_s <= (_NEARER_S if found else 0.0):
+            break
+        tried = _Tried(question, lever, budget)
+        if far_off := tried.far_off():
+            found.append((tried, far_off))
+    for number, (tried, far_off) in enumerate(found):
+        until_s = max(_ROUNDED_S, budget.left_s * (1.0 - 1.0 / (len(found) - number)))
+        nearest = tried.readable(tried.nearest(far_off, until_s))
+        yield Suggestion(tried.lever.what, float(tried.lever.value), float(nearest), tried.lever.unit)
 
 
 def levers(scene: Scene, constraints: Container[str]) -> Iterator[Lever]:
@@ -137,59 +141,61 @@ def _numbers(formula: Formula) -> Iterator[tuple[ParameterRef | Number, Dimensio
             yield from ((n, compared_dimension(part)) for n in walk(part) if isinstance(n, ParameterRef | Number))
 
 
-def _nearest(question: Question, lever: Lever, budget: _Budget) -> Fraction | None:
-    """Return the value nearest to the lever's own with which there is a witness, rounded to a readable number."""
-    freed = replace(question, scene=_changed(question.scene, lever, None))
+@dataclass(frozen=True, slots=True)
+class _Tried:
+    """Other values of one lever, tried within a budget."""
 
-    def does(value: Fraction) -> bool:
+    question: Question
+    lever: Lever
+    budget: _Budget
+
+    def asked(self, term: Number | ParameterRef) -> Question:
+        """Return the question with a term in the lever's place: another number, or one that is to be found."""
+        scene, lever = self.question.scene, self.lever
+        known = {name: value for name, value in scene.parameters.items() if lever.number or name != lever.name}
+        if lever.number is None and isinstance(term, Number):
+            known[lever.name] = term.value
+        return replace(self.question, scene=replace(scene, program=lever.put(scene.program, term), parameters=known))
+
+    def does(self, value: Fraction, guesses: int = _GUESSES) -> bool:
         """Whether it can happen with a number in the lever's place."""
-        return budget.witness(replace(question, scene=_changed(question.scene, lever, value))) is not None
+        return self.budget.witness(self.asked(Number(value)), guesses) is not None
 
-    def possible(low: Fraction, high: Fraction) -> Fraction | None:
-        witness = budget.witness(replace(freed, freed={lever.name: (low, high)}))
+    def up_to(self, end: Fraction, guesses: int = _GUESSES) -> Fraction | None:
+        """Return a value that does between the lever's own and another; None where none is found."""
+        low, high = min(self.lever.value, end), max(self.lever.value, end)
+        freed = replace(self.asked(ParameterRef(self.lever.name)), freed={self.lever.name: (low, high)})
+        witness = self.budget.witness(freed)
         if witness is not None:
-            return decimal_fraction(f"{witness.parameters[lever.name]:.6f}")
+            return decimal_fraction(f"{witness.parameters[self.lever.name]:.6f}")
         # As a number it bounds a law of motion, where that is what it does; as an unknown it cannot.
-        furthest = max(low, high, key=lambda each: abs(each - lever.value))
-        return furthest if does(furthest) else None
+        return end if self.does(end, guesses) else None
 
-    value, sign = lever.value, -1 if lever.value < 0 else 1
-    ends = (sign * 10 * abs(value) + 20 * sign, Fraction(0) if value else Fraction(-20))
-    found = [nearest for end in ends if (nearest := _nearest_towards(value, end, possible, budget)) is not None]
-    if not found:
-        return None
-    best = min(found, key=lambda candidate: abs(candidate - value))
-    readable = dict.fromkeys(each for digits in _DECIMALS for each in _rounded(best, value, digits) if each != value)
-    return next((each for each in readable if budget.left_s > 0.0 and does(each)), best)
+    def far_off(self) -> list[Fraction]:
+        """Return a value in either direction that does, however far off it is."""
+        value, sign = self.lever.value, -1 if self.lever.value < 0 else 1
+        ends = (sign * 10 * abs(value) + 20 * sign, Fraction(0) if value else Fraction(-20))
+        return [far for end in ends if self.budget.left_s > 0.0 and (far := self.up_to(end)) is not None]
 
+    def nearest(self, far_off: Sequence[Fraction], until_s: float) -> Fraction:
+        """Bisect between the lever's own value and those that do, until it is near enough or so much budget is left."""
+        value, nearest = self.lever.value, []
+        for far in far_off:
+            near = value
+            for _ in range(_BISECTIONS):
+                if self.budget.left_s <= until_s or abs(far - near) <= _NEAR * abs(far - value):
+                    break
+                middle = (near + far) / 2
+                better = self.up_to(middle, _FEW)
+                near, far = (middle, far) if better is None else (near, better)
+            nearest.append(far)
+        return min(nearest, key=lambda candidate: abs(candidate - value))
 
-def _changed(scene: Scene, lever: Lever, value: Fraction | None) -> Scene:
-    """Return the scene in which the lever's number is another, or one that is to be found."""
-    if lever.number is not None:
-        term = ParameterRef(lever.name) if value is None else Number(value)
-        return replace(scene, program=lever.put(scene.program, term))
-    others = {name: known for name, known in scene.parameters.items() if name != lever.name}
-    return replace(scene, parameters=others if value is None else {**others, lever.name: value})
-
-
-def _nearest_towards(
-    value: Fraction, end: Fraction, possible: Callable[[Fraction, Fraction], Fraction | None], budget: _Budget
-) -> Fraction | None:
-    """Bisect between `value`, which does not work, and what works on the way to `end`; None where nothing does."""
-    far = possible(min(value, end), max(value, end)) if budget.left_s > 0.0 else None
-    if far is None:
-        return None
-    near = value
-    for _ in range(_BISECTIONS):
-        if budget.left_s < 0.5 * _ALL_S:  # what is found is to be rounded, too
-            break
-        middle = (near + far) / 2
-        better = possible(min(middle, value), max(middle, value))
-        if better is None:
-            near = middle
-        else:
-            far = better
-    return far
+    def readable(self, best: Fraction) -> Fraction:
+        """Return a number near to `best` that is easy to read and does, too."""
+        every = (each for digits in _DECIMALS for each in _rounded(best, self.lever.value, digits))
+        readable = dict.fromkeys(each for each in every if each != self.lever.value)
+        return next((each for each in readable if self.budget.left_s > 0.0 and self.does(each)), best)
 
 
 def _rounded(found: Fraction, origin: Fraction, digits: int) -> tuple[Fraction, Fraction]:

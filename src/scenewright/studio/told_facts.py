@@ -11,6 +11,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 Told = tuple[str, float | None]
+_STEADY_MPSS = 0.005  # what is less reads as nothing
 
 
 def told_facts(facts: Mapping[str, Any]) -> list[Told]:
@@ -39,9 +40,12 @@ def _triggers(facts: Mapping[str, Any]) -> Iterator[Told]:
             continue
         off = f"came to within {abs(error):.2g} {side.get('unit') or ''}".rstrip()
         held = "was there" if side.get("met") else off
-        yield f"{str(side.get('who')).capitalize()}, by itself, {held}: {side.get('side')}.", moment
-    if (apart := _number(facts.get("trigger_sides_apart_s"))) is not None:
-        yield f"The two sides of the trigger were there {apart:.2f} s apart.", None
+        names = [str(name) for name in side.get("actors") or [side.get("who")]]
+        who, alone = " and ".join(names).capitalize(), "by itself" if len(names) == 1 else "together"
+        yield f"{who}, {alone}, {held}: {side.get('side')}.", moment
+    apart = _number(facts.get("trigger_sides_apart_s"))
+    if apart is not None and not all(came.values()):  # who was there at the trigger may have been there before, too
+        yield f"All that a trigger waits for was there, but not at once: {apart:.2f} s apart.", None
 
 
 def _manoeuvres(interaction: Mapping[str, Any]) -> Iterator[Told]:
@@ -51,9 +55,11 @@ def _manoeuvres(interaction: Mapping[str, Any]) -> Iterator[Told]:
         if onset is None or end is None:
             yield f"{hero.capitalize()} was not seen to begin what it was to do.", None
             continue
-        rate = "" if mean is None else f", on average at {mean:.2f} m/s²".replace("-", "−")
-        even = "" if deviation is None else f" (at most {deviation:.2f} m/s² from that)"
-        yield f"{hero.capitalize()} did what it was to do from {onset:.2f} to {end:.2f} s{rate}{even}.", onset
+        steady = deviation is not None and deviation < _STEADY_MPSS
+        even = "" if deviation is None else " throughout" if steady else f" (at most {deviation:.2f} m/s² from that)"
+        at = "at" if steady else "on average at"
+        rate = "" if mean is None else f", {at} {mean:.2f} m/s²{even}".replace("-", "−")
+        yield f"{hero.capitalize()} did what it was to do from {onset:.2f} to {end:.2f} s{rate}.", onset
 
 
 def _pair(pair: str, values: Mapping[str, Any]) -> Iterator[Told]:
@@ -82,8 +88,8 @@ def _motion(name: str, values: Mapping[str, Any]) -> Iterator[Told]:
     seen = {key: number for key, value in values.items() if (number := _number(value)) is not None}
     if {"speed", "acceleration", "deceleration", "lateral"} <= seen.keys():
         yield (
-            f"At most {name} drove at {seen['speed']:.1f} m/s, sped up by {seen['acceleration']:.1f} m/s², braked by "
-            f"{abs(seen['deceleration']):.1f} m/s², and felt {seen['lateral']:.1f} m/s² sideways.",
+            f"At most {name} drove at {seen['speed']:.1f} m/s, sped up by {max(0.0, seen['acceleration']):.1f} m/s², "
+            f"braked by {max(0.0, -seen['deceleration']):.1f} m/s², and felt {seen['lateral']:.1f} m/s² sideways.",
             None,
         )
     if {"position_drift", "map_drift", "speed_jump"} <= seen.keys():

@@ -231,7 +231,9 @@ def _core(question: Question, unknowns: Sequence[Unknown], formulas: Sequence[Na
     told, first = [constraint.id for constraint in question.constraints()], set[str]()
     if refuter.capabilities.cores:
         first = set(refuter.ask(unknowns, formulas, 1.0, want_core=True).core)
-    named = [name for name in told if name in first]
+    # What says only who is whose moment is in how formulas are made, and has none that a solver could name.
+    stated = {origin for each in formulas for origin in each.origins}
+    named = [name for name in told if name in first or name not in stated]
 
     def refuted(unknowns: Sequence[Unknown], formulas: Sequence[Named]) -> bool:
         nonlocal left_s
@@ -242,11 +244,9 @@ def _core(question: Question, unknowns: Sequence[Unknown], formulas: Sequence[Na
     def clash(names: list[str]) -> bool:
         return left_s > 0.0 and refuted(*_posed(question, names))
 
-    if clash(named):
-        kept = needed(named, clash)
+    kept = needed(named if clash(named) else told, clash)
+    if kept != told:
         unknowns, formulas = _posed(question, kept)
-    else:
-        kept = told
     origins = dict.fromkeys(origin for each in formulas for origin in each.origins if origin not in kept)
     left_s = _CORE_S
 

@@ -173,7 +173,8 @@ function paintPlaces(chart) {
       if (y < chart.top || y > chart.height - chart.bottom || used.some((other) => Math.abs(other - y) < 3)) continue;
       chart.svg.append(draw('line', { class: `place ${actor.tone}`, x1: LEFT, x2: chart.width - RIGHT, y1: y, y2: y }));
       if (used.every((other) => Math.abs(other - y) >= 13)) {
-        chart.names.append(draw('text', { class: 'knot-name', x: chart.width - RIGHT - 3, y: y - 3, 'text-anchor': 'end', text: spoken(mark.name) }));
+        const beside = y - 13 < chart.top ? y + 11 : y - 3; // above the chart moments have their names
+        chart.names.append(draw('text', { class: 'knot-name', x: chart.width - RIGHT - 3, y: beside, 'text-anchor': 'end', text: spoken(mark.name) }));
       }
       used.push(y);
     }

@@ -2,7 +2,7 @@
 
 const TRAIL_S = 5;
 
-const view = { k: 4, x: 0, y: 0, width: 0, height: 0, camera: 'fit', labels: [] };
+const view = { k: 4, x: 0, y: 0, width: 0, height: 0, camera: 'fit', labels: [], places: [] };
 const layers = {};
 
 const toScreen = (x, y) => [(x - view.x) * view.k + view.width / 2, (view.y - y) * view.k + view.height / 2];
@@ -130,6 +130,7 @@ function labelPill(tone, className = 'label own') {
 
 /** The cars as they stood at each trigger, with the distances that define it. */
 function drawGhosts() {
+  const measured = new Set(); // what triggers of one moment share is measured once
   for (const trigger of run.triggers) {
     trigger.group = draw('g', { class: 'ghosts' });
     trigger.pills = [];
@@ -139,7 +140,11 @@ function drawGhosts() {
       const shape = draw('g', { class: `ghost ${actor.tone}`, transform: poseTransform(stood.get(actor.name)) }, ...vehicleShape(actor));
       trigger.group.append(shape);
     }
-    for (const measure of trigger.measures) addMeasure(trigger, measure, stood);
+    for (const measure of trigger.measures) {
+      const key = `${fixed(trigger.time_s, 2)} ${JSON.stringify(measure)}`;
+      if (!measured.has(key)) addMeasure(trigger, measure, stood);
+      measured.add(key);
+    }
     layers.ghosts.append(trigger.group);
   }
 }
@@ -209,38 +214,44 @@ function trailOf(actor, from, to) {
 
 function showTags(time) {
   if (!view.width) return;
-  const taken = [];
-  for (const actor of run.actors) {
-    const state = stateAt(actor, time);
-    if (state.x === null || state.y === null) continue;
-    const upright = Math.abs(Math.sin(state.heading)) > 0.7;
-    const near = actor.width * 0.5 * view.k + 9;
-    actor.tag.say(`${actor.name} ${fixed(state.v, 1)} m/s`);
-    // In a queue the tags climb over each other.
-    for (const level of [0, 1, 2, 3]) {
-      actor.tag.place(...toScreen(state.x, state.y), upright, upright ? near + level * 60 : -near - level * 19);
-      const [x, y] = actor.tag.at;
-      if (taken.every((other) => x > other.x + other.width || x + actor.tag.width < other.x || Math.abs(y - other.y) > 17)) break;
-    }
-    taken.push({ x: actor.tag.at[0], y: actor.tag.at[1], width: actor.tag.width });
-  }
+  const taken = [...view.places];
   for (const trigger of run.triggers) {
     const since = time - trigger.time_s;
     for (const part of [trigger.group, ...trigger.pills.map(({ pill }) => pill.group)]) {
       part.toggleAttribute('hidden', since < -0.011);
       part.classList.toggle('faded', since > 1.5);
     }
+    if (since >= -0.011) taken.push(...trigger.pills.map(({ pill }) => [...pill.at, pill.width, 17]));
   }
+  for (const actor of run.actors) {
+    const state = stateAt(actor, time);
+    if (state.x === null || state.y === null) continue;
+    const upright = Math.abs(Math.sin(state.heading)) > 0.7;
+    const near = actor.width * 0.5 * view.k + 9;
+    actor.tag.say(`${actor.name} ${fixed(state.v, 1)} m/s`);
+    placeClear(actor.tag, toScreen(state.x, state.y), upright, upright ? near : -near, taken);
+  }
+}
+
+/** Put a pill beside a point, as much further off as it takes to hide nothing that has its place, and take its own. */
+function placeClear(pill, [x, y], upright, away, taken) {
+  for (const level of [0, 1, 2, 3]) {
+    pill.place(x, y, upright, away + Math.sign(away) * level * (upright ? 60 : 19));
+    const [left, top] = pill.at;
+    if (taken.every(([tx, ty, tw, th]) => left > tx + tw || left + pill.width < tx || top > ty + th || top + 17 < ty)) break;
+  }
+  taken.push([...pill.at, pill.width, 17]);
 }
 
 /** Measures stay where they are for a camera: across from the vehicles' tags. */
 function placeMeasures() {
+  const taken = [];
   for (const { pill, words, line } of run.triggers.flatMap((trigger) => trigger.pills)) {
     const middle = middleOf(line);
     const [from, to] = [line[0], line[line.length - 1]];
     const upright = Math.abs(to[1] - from[1]) > Math.abs(to[0] - from[0]);
     pill.say(words);
-    pill.place(...toScreen(middle[0], middle[1]), upright, (upright ? -1 : 1) * (view.k + 9));
+    placeClear(pill, toScreen(middle[0], middle[1]), upright, (upright ? -1 : 1) * (view.k + 9), taken);
   }
 }
 
@@ -283,6 +294,7 @@ function placeCamera() {
 /** Put each landmark's label beside its place: the first of eight sides where it hides nothing. */
 function placeLabels() {
   layers.labels.replaceChildren();
+  view.places = [];
   const taken = view.labels.map((group) => {
     const [x, y] = toScreen(group.x, group.y);
     return [x - 6, y - 6, 12, 12];
@@ -298,6 +310,7 @@ function placeLabels() {
     const [w, h] = [text.getComputedTextLength() + 8, 16];
     const place = freePlace(x, y, w, h, taken);
     taken.push(place);
+    view.places.push(place);
     const [px, py] = place;
     const anchor = [clamp(x, px, px + w), clamp(y, py, py + h)];
     text.before(draw('path', { class: 'leader', d: pathOf([[x, y], anchor]) }), draw('rect', { class: 'pill', x: px, y: py, width: w, height: h, rx: 2 }));
