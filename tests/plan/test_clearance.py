@@ -53,6 +53,25 @@ def test_the_distance_tells_who_is_ahead(distance: str, ahead: bool) -> None:
     assert clearance.ahead is ahead
 
 
+def test_whoever_is_to_have_merged_ahead_of_the_ego_is_not_planned_through_it() -> None:
+    """Where it starts is open: it began behind the ego and drove through it."""
+    rows = "A0(t1) == A1(t1)\ngap(A0, A1, t1) == 13.8\nA1x(t1) == turn_end + 20.2\nA1a(dec) == -4\nA1v(t2) == 2.7\n"
+    text = example("S, E", "t0, go, t1, dec, t2", rows).replace("- W\n", "- E\n", 1)
+    scene = ground(parse_program(text), load_map("t_intersection"), {})
+    clearance = clearance_of(scene)
+    assert clearance is not None
+    assert clearance.ahead
+    assert clearance.since_m == pytest.approx(scene.landmarks_m[HERO]["turn_end"], abs=1.0)
+    structure = read_structure(scene.program)
+    planner = Planner(scene, structure, limits_of(scene), Driver(13.9), linear_conditions(scene, structure))
+    attempt = planner.begin((0.0, scene.landmarks_m[EGO]["intersection"] - 100.0, 13.9, 0.0))
+    ego, hero = attempt.plan.profiles[EGO], attempt.plan.profiles[HERO]
+    for k in range(int(10 * hero.knot_times_s["t1"]) + 1):
+        s_m = hero.state(0.1 * k)[0]
+        if s_m >= clearance.since_m:
+            assert s_m + clearance.offset_m - ego.state(0.1 * k)[0] > VEHICLE_LENGTH_M
+
+
 def test_that_one_is_ahead_at_all_tells_no_distance() -> None:
     assert clearance_of(scene_with("gap(A0, A1, t0) > 0")) is None
 

@@ -13,7 +13,7 @@ from scenewright.program.structure import read_structure
 from scenewright.program.types import EGO
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.solve.arrival import linear_conditions
-from stories import BRAKES_GAP, YIELDS_DISTANCE
+from stories import BRAKES_GAP, YIELDS_DISTANCE, program
 
 
 def foresight(text: str, predictor: Predictor) -> Foresight:
@@ -31,19 +31,28 @@ def leading(ahead_m: float, speed_mps: float) -> dict[int, Profile]:
 def test_an_ego_that_holds_its_speed_is_sure_and_follows_nobody() -> None:
     steady = foresight(BRAKES_GAP, ConstantSpeed())
     assert steady.is_sure
-    assert steady.leaders == {}
+    assert steady.leaders(leading(12.0, 5.0)) == {}
     assert steady.foreseen(leading(12.0, 5.0)).state(3.0)[:2] == pytest.approx((186.0, 12.0))
 
 
 def test_behind_a_slower_hero_the_ego_is_foreseen_to_slow_down_and_the_more_the_nearer_it_is() -> None:
     follower = foresight(BRAKES_GAP, Driver(13.9))
-    assert list(follower.leaders) == [1]
+    assert list(follower.leaders(leading(15.0, 6.0))) == [1]
     near, far = (follower.foreseen(leading(ahead_m, 6.0)).state(3.0)[1] for ahead_m in (15.0, 60.0))
     assert near < far <= 12.5
 
 
 def test_one_that_crosses_its_way_is_not_followed() -> None:
-    assert foresight(YIELDS_DISTANCE, Driver(13.9)).leaders == {}
+    assert foresight(YIELDS_DISTANCE, Driver(13.9)).leaders(leading(15.0, 6.0)) == {}
+
+
+def test_one_that_merges_is_followed_from_where_it_is_on_the_lane() -> None:
+    gap = "A0(t1) == A1(t1)\ngap(A0, A1, t1) == 20\nA1x(t1) == turn_end + 20\nA1v(t2) == 3\n"
+    ego = foresight(program("S, E", "t0, go, t1, dec, t2", gap, ego_route="E"), Driver(13.9))
+    merges_m = ego.scene.landmarks_m[1]["turn_end"]
+    for past_m, followed in ((-2.0, []), (2.0, [1])):
+        motions = {1: Profile(chain(0.0, merges_m + past_m, 6.0, [(8.0, 0.0, 0)]), {"t0": 0.0, "t1": 4.0})}
+        assert list(ego.leaders(motions)) == followed
 
 
 @pytest.mark.parametrize("first", [True, False])

@@ -86,6 +86,33 @@ def test_who_is_told_nothing_of_the_other_keeps_as_clear_of_it_as_the_manner_say
     assert drive(ACROSS, "idm").apart_m(of_ego=False) < 0.0
 
 
+def test_who_comes_behind_keeps_clear_until_the_first_has_left_the_lane() -> None:
+    """The first brakes to a stand just where it turns off: between two looks the second drove into its back."""
+    turns_off = """
+Actor 0 (ego):
+- W
+- [t0, go, t1, go, t2]
+
+Actor 1 (off):
+- E, N
+- [t0, go, t1, dec, t2]
+
+Actor 2 (behind):
+- E
+- [t0, go, t1, acc, t2]
+
+Constraints:
+A0(t1) == A1(t1)
+A0x(t1) == conflict_point - 40
+A1x(t1) == conflict_point - 25
+A1v(t2) == 0
+A2(t1) == A1(t1)
+gap(A1, A2, t1) == -15
+A2v(t2) - A2v(t1) == 2
+"""
+    assert drive(turns_off, "constant").apart_m(of_ego=False) > 0.0
+
+
 def test_who_is_to_be_in_contact_is_let() -> None:
     scene = scene_of(IN_CONTACT)
     driven = drive(IN_CONTACT, "constant")

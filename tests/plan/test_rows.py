@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from situations import HERO, Array, begun, problem_of
+from situations import HERO, Array, begun, planner_of, problem_of, scene_of
 
 from scenewright.plan.problem import Problem
 from scenewright.plan.rows import HeroRows, Rows
 from scenewright.program.types import PieceKind
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
-from stories import STORIES
+from stories import STORIES, program
 
 YIELDS, GAP, WAITS = STORIES["yields, distance"], STORIES["brakes at a rate"], STORIES["stops and goes"]
 FAINT = GAP.replace("A1a(dec) == -3", "A1a(dec) == -0.2").replace("A1v(t2) == 0", "A1v(t2) == 5")
@@ -180,3 +180,14 @@ def test_who_is_waited_for_can_be_waited_for() -> None:
         found.append(max(rows.bounds.values))
     assert found[0] < 3.0
     assert found[1] > found[0] + 5.0
+
+
+@pytest.mark.parametrize(("lead_m", "past_m"), [(40, 45), (30, 30), (30, 45)])
+def test_nobody_begins_faster_than_the_bend_that_it_begins_in_allows(lead_m: int, past_m: int) -> None:
+    """Its first state is free, and a part of its motion as any other: it began with 14 m/s where 8.6 goes."""
+    asked = f"A0(t1) == A1(t1)\nA0x(t1) == stop_line - 30\nA1x(t1) == turn_end + {past_m}\nA1v(t1) >= 9\nA1v(t2) == 3\n"
+    scene = scene_of(program("E, N", "t0, go, t1, dec, t2", asked))
+    planner = planner_of(scene)
+    hero = planner.begin((0.0, scene.landmarks_m[0]["stop_line"] - 30.0 - lead_m, 13.9, 0.0)).plan.profiles[1]
+    s_m, speed_mps, _ = hero.state(0.0)
+    assert abs(scene.routes[1].path.curvature(s_m)) * speed_mps**2 <= 6.0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -146,6 +147,18 @@ def test_an_ego_that_would_brake_hard_begins_further_behind() -> None:
     It acts on what it saw a while ago, and so brakes a while later than the one above, which acts at once.
     """
     assert at_once_mpss("", "delayed") < HARD_MPSS
+
+
+def test_an_ego_that_brakes_hard_for_somebody_further_off_begins_further_behind_too(shared_dir: Path) -> None:
+    """On a motorway: with 30.6 m/s it began 44 m behind one of 16.5 m/s, under 8 m/s^2 of braking."""
+    way = "- lanes 1.0.1, 0.2.1, 0.1.1, 0.0.1\n"
+    text = program("W", "t0, go, t1, dec, t2", "A0(t1) == A1(t1)\ngap(A0, A1, t1) == 30\nA1v(t2) == 3\n")
+    text = f'map "{shared_dir / "maps/esmini/highway_exit.xodr"}"\n' + text.replace("- W\n", way)
+    result = orchestrate(Request(text, ego="idm", takes=1, explain="nothing"))
+    assert result.status == "success"
+    assert result.run is not None
+    ego = result.run.trace.actors["ego"]
+    assert ego.accel_mps2[ego.time_s < 1.0].min() > -HARD_MPSS
 
 
 def test_who_is_asked_to_begin_near_does() -> None:

@@ -75,3 +75,13 @@ def test_a_run_does_not_end_before_a_moving_ego_is_at_the_end_of_its_road() -> N
     trigger = "A0(t1) == A1(t1)\nA0x(t1) == route_end\nA1x(t1) == conflict_point - 30\nA1v(t2) == 0\n"
     result = orchestrate(Request(program("E, N", "t0, go, t1, dec, t2", trigger), ego="idm", takes=1))
     assert result.status == "success"
+
+
+def test_a_run_goes_on_for_what_is_planned_though_the_ego_stands() -> None:
+    """The hero stands for longer than an ego that stands is waited for, and drives on by itself."""
+    hero = "A0(t1) == A1(t1)\ngap(A0, A1, t1) == 30\nA1v(t2) == 0\nA1(t3) - A1(t2) == 25\nA1v(t4) == 8\n"
+    result = orchestrate(Request(program("W", "t0, go, t1, dec, t2, stop, t3, acc, t4", hero), ego="idm", takes=1))
+    assert result.status == "success"
+    assert result.run is not None
+    ego = result.run.trace.actors["ego"]
+    assert ego.speed_mps.min() < 0.1

@@ -25,12 +25,13 @@ _TYPICAL_MPS = 10.0
 class Clearance:
     """Whether the hero is ahead, what to add to its arc length to compare it with the ego's (m).
 
-    And whether the trigger speaks of the distance itself.
+    And whether the trigger speaks of the distance itself, and from where on the hero is on that lane (m).
     """
 
     ahead: bool
     offset_m: float
     of_distance: bool = True
+    since_m: float = 0.0
 
     @classmethod
     def of(
@@ -41,8 +42,10 @@ class Clearance:
         Nobody drives through anybody, so whoever is ahead at one moment is so all along.
         """
         conflict = scene.conflict(EGO, hero.id)
-        if conflict is None or conflict.kind != "following":
+        if conflict is None or conflict.kind == "crossing":
             return None
+        follows = conflict.kind == "following"
+        since_m = 0.0 if follows else conflict.s_b_m
         start = frozenset((actor.id, actor.sketch.knots[0]) for actor in scene.program.actors)
         trigger, offset_m = structure.triggers.get(hero.id, frozenset()), scene.offset_m(EGO, hero.id)
         for instant in (trigger, start):
@@ -52,14 +55,14 @@ class Clearance:
                     continue
                 gap_m = _gap_m(condition, hero.id, offset_m)
                 if gap_m:  # that one is ahead at all, a bound of 0, says nothing of the distance
-                    return cls(gap_m > 0.0, offset_m, instant == trigger)
+                    return cls(gap_m > 0.0, offset_m, instant == trigger, since_m)
             places_m = {
                 actor: -condition.constant / metre
                 for condition in told
                 for actor, (metre, second) in condition.weights.items()
                 if len(condition.weights) == 1 and metre and not second
             }
-            if {EGO, hero.id} <= set(places_m):
+            if follows and {EGO, hero.id} <= set(places_m):
                 gap_m = places_m[hero.id] + offset_m - places_m[EGO]
                 if abs(gap_m) >= _TELLING_M:
                     return cls(gap_m > 0.0, offset_m, of_distance=False)

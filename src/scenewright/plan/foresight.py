@@ -76,15 +76,18 @@ class Foresight:
         """Whether it drives as foreseen, as its policy promises."""
         return isinstance(self.predictor, ConstantSpeed)
 
-    @property
-    def leaders(self) -> dict[int, Clearance]:
-        """The heroes that drive ahead of it, where it is not known to hold its speed."""
-        return {} if self.is_sure else {hero: lane for hero, lane in self._distances.items() if lane.ahead}
+    def leaders(self, motions: Motions) -> dict[int, Clearance]:
+        """Return the heroes that drive ahead of it now, where it is not known to hold its speed."""
+        now_s, found = self.samples[-1][0], dict[int, Clearance]()
+        for hero, lane in self._distances.items():
+            if lane.ahead and not self.is_sure and motions[hero].state(now_s)[0] >= lane.since_m:
+                found[hero] = lane
+        return found
 
     def foreseen(self, motions: Motions) -> Profile:
         """Return how it will go on while heroes move so."""
         prediction = self.predictor.predict(self.samples)
-        for hero, clearance in self.leaders.items():
+        for hero, clearance in self.leaders(motions).items():
             leader = Leader(motions[hero], clearance.offset_m)
             prediction = foresee_follower(prediction, self.samples, leader, self.cruise_mps)
         return prediction
@@ -97,7 +100,7 @@ class Foresight:
         """Return who keeps on which side of it on its lane, and what it makes of heroes that do not move just so."""
         apart = {hero: (1.0 if lane.ahead else -1.0, lane.offset_m) for hero, lane in self._on_lane.items()}
         found: dict[int, Answer] = {}
-        for hero, clearance in self.leaders.items():
+        for hero, clearance in self.leaders(motions).items():
             trigger_s = motions[hero].knot_times_s.get(self.structure.trigger_knot(hero) or "", time_s)
             if trigger_s > time_s:
                 found[hero] = self._answer(motions[hero], clearance, (time_s, trigger_s), prediction, first=first)

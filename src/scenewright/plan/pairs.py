@@ -267,13 +267,14 @@ class PairRows:
     def _in_lane(self, meeting: Meeting, first: Along, second: Along) -> tuple[Array, Array, Columns]:
         """Return what is missing between two in their common lane (m), or until the first has left it, if that is less.
 
-        Wherever that is near.
+        Wherever that is near. It counts as there for one look more: between two looks the other comes nearer.
         """
         assert meeting.lane_m is not None
         (since_m, until_m), (_, other_until_m) = meeting.lane_m
-        (s, _, d_s), (other, _, d_other) = first, second
+        (s, v, d_s), (other, _, d_other) = first, second
         short_m = self.wanted.clear_in_lane_m + VEHICLE_LENGTH_M - (s - meeting.offset_m - other)
-        d_other, short_m = d_other * (short_m < until_m - s)[:, None], np.minimum(short_m, until_m - s)
+        stays_m = until_m + LOOK_S * v - s
+        d_other, short_m = d_other * (short_m < stays_m)[:, None], np.minimum(short_m, stays_m)
         near = (s >= since_m) & (other < other_until_m) & (short_m > -self.near_m)
         columns = np.concatenate([self.ways[meeting.first].columns, self.ways[meeting.second].columns])
         return short_m[near], np.hstack([-d_s[near], d_other[near]]), columns

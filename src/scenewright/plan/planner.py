@@ -123,12 +123,13 @@ class Planner(Standing):
         if self._ego.take_sides(self.plan.profiles, self._asked.adapts_until):
             best = self._planned_first(best.plan.profiles[EGO], 0.0, best.plan.profiles)
             self._keep(best)
-        if self._ego.leaders:
+        led = bool(self._ego.leaders(self.plan.profiles))
+        if led:
             best = self._led(best)
         if meetings and not placed:
             self._keep(best)
             self._meetings = in_order(meetings, self.scene, self.structure, best.plan.profiles)
-        if not (self._ego.leaders or placed) or self._meetings != best.meetings:
+        if not (led or placed) or self._meetings != best.meetings:
             best = self._planned_first(best.plan.profiles[EGO], 0.0, best.plan.profiles)
         best = self._turned(best)
         self._keep(best)

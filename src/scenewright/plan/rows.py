@@ -153,22 +153,23 @@ class HeroRows:
         wanted, caps, limits = self.asked.wanted, self.asked.caps[self.hero.id], self.asked.limits[self.hero.id]
         number, shot = self._trigger_leg(), self.shot
         acts = len(shot.s) if number is None else shot.first_node[number]
-        onto = np.arange(1, len(shot.s)) > acts  # on its way to whatever road comes next
+        free = slice(1 if self.hero.id in self.now.heroes else 0, None)  # how fast it is now nothing changes
+        onto = np.arange(len(shot.s))[free] > acts  # on its way to whatever road comes next
         natural = np.where(onto, limits.natural_speed_mps, limits.natural_approach_speed_mps)
         # Who brakes into a bend is midway between two nodes faster than the second of them alone allows there.
         s, v, d_s, d_v = (0.5 * (each[1:] + each[:-1]) for each in (shot.s, shot.v, shot.d_s, shot.d_v))
         most, slope = caps.at(s)[0]
         bends = most < caps.most.max()
         self.bounds.add_all((v - most)[bends], (d_v - slope[:, None] * d_s)[bends], FIRM * wanted.price)
-        (most, slope), (comfortable, other) = caps.at(shot.s)
-        v, d_s, d_v = shot.v[1:], shot.d_s[1:], shot.d_v[1:]
+        s, v, d_s, d_v = (each[free] for each in (shot.s, shot.v, shot.d_s, shot.d_v))
+        (most, slope), (comfortable, other) = caps.at(s)
         self.bounds.add_all(-v, -d_v, FIRM * wanted.price)
         # Its last knot is on its road, unless the program asks for one at its end.
         end_m = self.asked.scene.routes[self.hero.id].landmarks["route_end"] - VEHICLE_LENGTH_M
         s_m, _, d_s_m, _ = shot.at_node(shot.first_node[-2])
         self.bounds.add(s_m - end_m, d_s_m, wanted.price / _TIGHT_LENGTH, wanted.out_of_way_most)
-        self.bounds.add_all(v - most[1:], d_v - slope[1:, None] * d_s, FIRM * wanted.price)
-        self.costs.beyond(v - comfortable[1:], d_v - other[1:, None] * d_s, wanted.lateral_weight)
+        self.bounds.add_all(v - most, d_v - slope[:, None] * d_s, FIRM * wanted.price)
+        self.costs.beyond(v - comfortable, d_v - other[:, None] * d_s, wanted.lateral_weight)
         self.costs.beyond(v - natural, d_v, wanted.over_limit_weight)
 
     # -- manner -------------------------------------------------------------------------------------------------------

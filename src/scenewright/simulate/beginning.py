@@ -17,7 +17,7 @@ from scenewright.plan.planner import GOOD, Attempt, Planner
 from scenewright.plan.prediction import Predictor
 from scenewright.plan.preferences import Preferences
 from scenewright.program.expressions import Compare, Derived, DerivedKind, Knot, Number
-from scenewright.program.starts import AT_ONCE_S, HARD_MPSS, TAILGATES_S, kept_m, says_how_near
+from scenewright.program.starts import AT_ONCE_S, HARD_MPSS, TAILGATES_S, says_how_near
 from scenewright.program.structure import read_structure
 from scenewright.program.types import EGO, Constraint
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
@@ -127,7 +127,7 @@ def _planned(
 
 
 def _saved_and_touched(world: World, start: EgoFirstState, attempt: Attempt) -> tuple[list[int], bool]:
-    """Return the heroes too near ahead of it, if the ego's policy brakes hard at once, and whether it touches one.
+    """Return the heroes ahead of it, if the ego's policy brakes hard at once, and whether it touches one.
 
     Not those that the program asks to begin so.
     """
@@ -139,13 +139,13 @@ def _saved_and_touched(world: World, start: EgoFirstState, attempt: Attempt) -> 
         offset_m, there = shared_offset_m(scene.routes[EGO], scene.routes[hero]), begins.first[hero]
         if offset_m is None or says_how_near(scene.program, world.structure, EGO, hero):
             continue
-        ahead_m, closing_mps = there.s_m + offset_m - ego.s_m, max(0.0, ego.speed_mps - there.speed_mps)
+        ahead_m = there.s_m + offset_m - ego.s_m
         # Who is still on another road is further away than along the road that the two will share.
         if math.hypot(there.x_m - ego.x_m, there.y_m - ego.y_m) >= abs(ahead_m) + _SAME_ROAD_M:
             continue
         if abs(ahead_m) < VEHICLE_LENGTH_M:
             touches = True
-        elif 0.0 < ahead_m < VEHICLE_LENGTH_M + kept_m(ego.speed_mps, closing_mps):
+        elif ahead_m > 0.0:
             near.append(hero)
     return (near if near and _brakes_hard(begins, heroes, world.rates.step_s) else []), touches
 

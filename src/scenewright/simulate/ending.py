@@ -35,7 +35,7 @@ class Ending:
     _told: list[ex.Term] = field(init=False)
     _meets: dict[int, str] = field(init=False)
     _values: dict[str, float] = field(init=False)
-    _ego_moved_s: float = field(init=False, default=0.0)
+    _waits_until_s: float = field(init=False, default=_STALLED_S)
 
     def __post_init__(self) -> None:
         self._told, self._meets = _told_times(self.scene.program), _meets_ego(self.scene.program)
@@ -44,22 +44,24 @@ class Ending:
     def is_now(self, plans: Mapping[int, Profile], now: Snapshot) -> bool:
         """Whether the run is over; to be asked at every step.
 
-        An ego that has not moved for long is not waited for, nor one at the end of its road, where no hero meets it.
+        An ego that has not moved for long is not waited for, once all is over that was planned when it came to a stand,
+        nor one at the end of its road, where no hero meets it.
         """
         time_s, ego, route = now.time_s, now.actors[EGO], self.scene.routes[EGO]
-        if ego.speed_mps > STANDS_MPS:
-            self._ego_moved_s = time_s
-        end_m = route.landmarks["route_end"]
-        at_end = ego.s_m >= end_m - (ROUTE_END_M if ego.speed_mps < _MOVES_MPS else 0.0)
-        waits = any(plans[hero].knot_times_s.get(knot, 0.0) > time_s for hero, knot in self._meets.items())
-        if time_s >= LONGEST_RUN_S or time_s - self._ego_moved_s > _STALLED_S or (at_end and waits):
-            return True
         # Whoever is at the end of its route does nothing more that a program asks for; others may.
         heroes = [hero.id for hero in self.scene.program.heroes]
         going = [h for h in heroes if now.actors[h].s_m < self.scene.routes[h].landmarks["route_end"]]
         last_knot_s = max((max(plans[hero].knot_times_s.values()) for hero in going), default=-_WAIT_FOR_EGO_S)
         stands_s = float(self.scene.program.manner.stands_s) + _SEEN_S
-        if time_s < max(self._told_s(plans), last_knot_s + max(_AFTER_HEROES_S, stands_s)):
+        planned_s = max(self._told_s(plans), last_knot_s + max(_AFTER_HEROES_S, stands_s))
+        if ego.speed_mps > STANDS_MPS or time_s == 0.0:
+            self._waits_until_s = max(time_s + _STALLED_S, planned_s)
+        end_m = route.landmarks["route_end"]
+        at_end = ego.s_m >= end_m - (ROUTE_END_M if ego.speed_mps < _MOVES_MPS else 0.0)
+        waits = any(plans[hero].knot_times_s.get(knot, 0.0) > time_s for hero, knot in self._meets.items())
+        if time_s >= LONGEST_RUN_S or time_s > self._waits_until_s or (at_end and waits):
+            return True
+        if time_s < planned_s:
             return False
         if time_s < last_knot_s + _WAIT_FOR_EGO_S and self._any_turning(now):
             return False
