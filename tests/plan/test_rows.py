@@ -191,3 +191,10 @@ def test_nobody_begins_faster_than_the_bend_that_it_begins_in_allows(lead_m: int
     hero = planner.begin((0.0, scene.landmarks_m[0]["stop_line"] - 30.0 - lead_m, 13.9, 0.0)).plan.profiles[1]
     s_m, speed_mps, _ = hero.state(0.0)
     assert abs(scene.routes[1].path.curvature(s_m)) * speed_mps**2 <= 6.0
+
+
+def test_nobody_begins_within_the_junction_though_no_trigger_tells_where_it_is() -> None:
+    scene = scene_of(program("W", "t0, go, t1, dec, t2", "A1v(3) == 8\nA1v(6) == 4\nA1(t1) >= 3.5\nA1(t1) <= 4\n"))
+    planner = planner_of(scene)
+    hero = planner.begin((0.0, 189.0, 13.9, 0.0)).plan.profiles[1]
+    assert hero.state(0.0)[0] <= scene.landmarks_m[1]["junction_start"] + 0.01

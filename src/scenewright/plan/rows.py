@@ -265,15 +265,15 @@ class HeroRows:
     def _before_trigger(self) -> None:
         """Add that until its trigger a hero is not in the ego's way, and can wait for it."""
         wanted, shot, hero = self.asked.wanted, self.shot, self.hero.id
+        if hero not in self.now.heroes and shot.s[0] > (begins_m := self.asked.junctions_m[hero]):
+            # Nobody begins within a junction, unless the program puts it there.
+            self.bounds.add(shot.s[0] - begins_m, shot.d_s[0], wanted.out_of_way_price, wanted.out_of_way_most)
         number = self._trigger_leg()
         if number is None:
             return
         last = shot.first_node[number]
         place_m, v_there, d_place, d_v_there = shot.at_node(last)
         zone_m, until_s = self.asked.zones_m.get(hero), float(shot.time[last])
-        if hero not in self.now.heroes and shot.s[0] > (begins_m := self.asked.junctions_m[hero]):
-            # Nobody begins within a junction, unless the program puts it there.
-            self.bounds.add(shot.s[0] - begins_m, shot.d_s[0], wanted.out_of_way_price, wanted.out_of_way_most)
         run_up_m, d_run_up = v_there**2 / (2.0 * wanted.sets_off_mpss), v_there / wanted.sets_off_mpss * d_v_there
         first = 1 if hero in self.now.heroes else 0
         s_m, v, d_s, d_v = (each[first : last + 1] for each in (shot.s, shot.v, shot.d_s, shot.d_v))
