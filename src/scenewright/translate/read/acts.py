@@ -44,6 +44,8 @@ def acts_of(story: Narrative, items: list[Clause], happens: bool) -> list[Clause
             item.flags, item.deed = item.flags - {"first"}, "go first"
         elif "kept" in item.flags and (is_hero or goes_on) and not item.says_more_than("flags", "times", "measures"):
             item.deed = st.Verb.DRIVE  # "when ..., it keeps its speed"; "It keeps this speed for 5 s"
+        elif is_hero and not (acts or meant or item.says_more_than()) and "drives" in item.notes:
+            item.deed = st.Verb.DRIVE  # "Then it drives"
         elif is_hero and refrains and all(other is item or not other.says_more_than() for other in items):
             item.deed = st.Verb.DRIVE  # "when ..., it does not brake"
         elif item.phase == "begins" and item.deed is None and item.measures:
