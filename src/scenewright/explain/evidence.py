@@ -161,14 +161,15 @@ def limit_reached(world: World, run: Run, hero: Actor, from_s: float, to_s: floa
         "lateral acceleration in the bend": (states.speed_mps**2 * bends, limits.lateral_max_mpss, "m/s^2"),
     }
     within = (states.time_s >= from_s) & (states.time_s <= to_s)
-    found = {name: np.flatnonzero(within & (values >= _REACHED * most)) for name, (values, most, _) in reached.items()}
-    name = max(found, key=lambda name: len(found[name]))
-    for_s = len(found[name]) * world.rates.step_s
-    at_limit = np.isin(np.arange(len(within)), np.concatenate([*found.values()]))
+    at_limit = {name: values >= _REACHED * most for name, (values, most, _) in reached.items()}
     knots_s = np.sort([*run.last_plan.profiles[hero.id].knot_times_s.values()])
     piece = np.where(within, np.searchsorted(knots_s, states.time_s, side="right"), -1)
-    throughout = any(at_limit[piece == each].mean() > 0.5 for each in set(piece[within].tolist()))
-    if for_s < (world.rates.replan_s or world.rates.step_s) or not throughout:
+    limited = np.any([*at_limit.values()], axis=0)
+    most_of = [each for each in set(piece[within].tolist()) if limited[piece == each].mean() > 0.5]
+    found = {name: np.flatnonzero(np.isin(piece, most_of) & there) for name, there in at_limit.items()}
+    name = max(found, key=lambda name: len(found[name]))
+    for_s = len(found[name]) * world.rates.step_s
+    if for_s < (world.rates.replan_s or world.rates.step_s):
         return None
     values, most, unit = reached[name]
     worst = int(found[name][np.argmax(values[found[name]])])

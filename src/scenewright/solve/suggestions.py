@@ -110,7 +110,8 @@ def suggest(question: Question, core: set[str]) -> Iterator[Suggestion]:
     for number, (tried, far_off) in enumerate(found):
         until_s = max(_ROUNDED_S, budget.left_s * (1.0 - 1.0 / (len(found) - number)))
         nearest = tried.readable(tried.nearest(far_off, until_s))
-        yield Suggestion(tried.lever.what, float(tried.lever.value), float(nearest), tried.lever.unit)
+        if nearest is not None:
+            yield Suggestion(tried.lever.what, float(tried.lever.value), float(nearest), tried.lever.unit)
 
 
 def levers(scene: Scene, constraints: Container[str]) -> Iterator[Lever]:
@@ -191,11 +192,11 @@ class _Tried:
             nearest.append(far)
         return min(nearest, key=lambda candidate: abs(candidate - value))
 
-    def readable(self, best: Fraction) -> Fraction:
-        """Return a number near to `best` that is easy to read and does, too."""
+    def readable(self, best: Fraction) -> Fraction | None:
+        """Return a number near to `best` that is easy to read and does, too; None where none was seen to."""
         every = (each for digits in _DECIMALS for each in _rounded(best, self.lever.value, digits))
         readable = dict.fromkeys(each for each in every if each != self.lever.value)
-        return next((each for each in readable if self.budget.left_s > 0.0 and self.does(each)), best)
+        return next((each for each in (*readable, best) if self.budget.left_s > 0.0 and self.does(each)), None)
 
 
 def _rounded(found: Fraction, origin: Fraction, digits: int) -> tuple[Fraction, Fraction]:

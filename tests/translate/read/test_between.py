@@ -257,3 +257,35 @@ def test_a_bare_car_beside_a_truck_is_another_one() -> None:
                  "m before the stop line, car B brakes.")  # fmt: skip
     assert [actor.name for actor in story.heroes] == ["car a", "car b"]
     assert verbs(story, 2) == ["drive on", "brake"]
+
+
+CROSSES = "The ego drives west. An oncoming hero turns left. "
+NEAR = "When the ego is 35 m before the conflict point, "
+
+
+def test_what_a_stop_comes_after_is_its_end_where_its_beginning_is_told() -> None:
+    story = read(CROSSES + NEAR + "the hero brakes to a stop within 2 s after the ego passes the conflict point.")
+    braking = story.deeds_of(1)[1]
+    assert {each.first for each in story.orders} | {each.second for each in story.orders} >= {braking.ends}
+    assert braking.begins not in {each.first for each in story.orders} | {each.second for each in story.orders}
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        NEAR + "the hero brakes from 5 m/s to 10 m/s.",
+        NEAR + "the hero speeds up from 10 m/s to 5 m/s.",
+        "While the ego is at least 9 m from the conflict point, the hero brakes to 5 m/s and speeds up to 10 m/s.",
+    ],
+)
+def test_what_cannot_be_meant_is_refused(said: str) -> None:
+    with pytest.raises(TranslationError):
+        read(CROSSES + said)
+
+
+@pytest.mark.parametrize("car", ["(the car is 20 m from it), the truck", "the car", "its car"])
+def test_the_car_is_the_only_one_there_is(car: str) -> None:
+    story = read(
+        "The ego drives west. A truck turns left, headed east. " + NEAR.rstrip(", ") + f", {car} brakes to a stop."
+    )
+    assert len(story.actors) == 2

@@ -200,8 +200,11 @@ class Measured:
         """Check a bound: the words for it stand before the amount."""
         at = amount.quote.start if amount.quote else quote.start
         said = self.heard.within(quote.span)
+        before = [
+            first for first, second in pairwise(said) if second.kind == "amount" and second.start <= at < second.end
+        ]
         bounds = ["==" if each.value in ("falls", "about") else each.value for each in said
-                  if each.kind == "bound" and 0 <= at - each.end < 4]  # fmt: skip
+                  if each.kind == "bound" and (each in before or 0 <= at - each.end < 4)]  # fmt: skip
         sides = [each.value for each in said if each.kind == "side" and each.start > at] or [""]
         bounds += [ONE_SIDE[key] for each in said if (key := (each.value, sides[0])) in ONE_SIDE and at > each.start]
         if bounds and any(each.kind == "negation" for each in said):  # "must not exceed"

@@ -77,6 +77,11 @@ def _attach(taken: Taken) -> None:
     if any(each.place is not None and each.place.partner == each.actor for each in clause.measures):
         raise taken.left_over(last)  # "it" of a conflict point with somebody, said of that one
     clause.agree()
+    begin, end = ([each.amount.si for each in said if each.quantity is st.Quantity.SPEED and each.amount is not None]
+                  for said in (clause.begins, clause.measures))  # fmt: skip
+    sense = {st.Verb.BRAKE: -1, "stop": -1, st.Verb.SPEED_UP: 1}.get(clause.deed or "", 0)
+    if begin and end and begin[0] is not None and end[0] is not None and sense * (end[0] - begin[0]) < 0:
+        raise taken.left_over(last)  # nobody brakes from 5 m/s to 10 m/s
 
 
 def _find_subject(taken: Taken) -> None:

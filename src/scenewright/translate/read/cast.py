@@ -5,6 +5,7 @@ What enters: mentions, one after the other. What leaves: numbers of actors. It k
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, NoReturn
@@ -163,8 +164,8 @@ class Cast:
     def _fits(self, actor: st.Actor, chunk: Chunk, words: set[str]) -> bool:
         """Whether a mention may mean somebody that is known: of its kind, or "the car" where there is only one."""
         kind = "car" if chunk.value == "hero" else chunk.value
-        said = self.text[: min(each.start for each in (chunk, *chunk.traits))].lower().split()[-1:]
-        is_only = len(self.heroes) == 1 and {*said} & {"the", "this", "that"}
+        said = re.findall(r"\w+", self.text[: min(each.start for each in (chunk, *chunk.traits))].lower())[-1:]
+        is_only = len(self.heroes) == 1 and {*said} & {"the", "this", "that", "its"}
         general = chunk.value == "car" and (is_only or any(each.kind == "other" for each in chunk.traits))
         named = chunk.value in (actor.name, *self.known_by.get(actor.id, ()))
         named |= actor.kind == kind and chunk.value != "hero"

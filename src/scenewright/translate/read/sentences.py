@@ -107,7 +107,8 @@ class _Sentence:
             self.lasting = self._lasting(when) if is_while else []
         items = items_of(story, main.chunks, story.subject)
         self._main(items, when if later is None else items_of(story, later.chunks), rest)
-        if is_while and known == len(story.doings):
+        deeds = sum(each.deed is not None for each in items)
+        if (is_while and known == len(story.doings)) or (self.lasting and deeds > 1):
             story.refuse("it is not clear how long this is so")
         if self.lasting:
             deed = story.doings[-1]
@@ -297,8 +298,10 @@ class _Sentence:
                 begins, ends = [*begins, *ends], []
         begun = clause.phase == "begins"  # "begins to brake to a stop 2 s before ..."
         orders = [each for each in rest if each.link in ORDERS and not is_event]
-        fronts = [each for each in orders if begun or each.link == "after" or each.is_first
-                  or (each.margins and not ends)]  # fmt: skip
+        # "When ..., it brakes to a stop within 2 s after ...": the moment says when it begins, this when it has.
+        is_end = when is not None and bool(ends or clause.deed == "stop")
+        fronts = [each for each in orders if begun or each.is_first
+                  or (not is_end and (each.link == "after" or (each.margins and not ends)))]  # fmt: skip
         verb = {"stop": st.Verb.BRAKE, "turn": st.Verb.DRIVE, "go first": st.Verb.DRIVE}.get(clause.deed, clause.deed)
         led = self.led.words | ({"passes"} if verb == st.Verb.DRIVE and "event" in clause.notes else set())
         led |= {"then", "apart"} if drives_on or fronts else set()  # this says when it begins, not what it did before
@@ -336,7 +339,7 @@ class _Sentence:
             if each.link == "until":  # "... until it passes the conflict point 1 s before the ego"
                 until = True
                 continue
-            late = at_end or until or not (each.is_first or begun or each.link == "after" or not ends)
+            late = at_end or until or not (each.is_first or begun or (each.link == "after" and not is_end) or not ends)
             late = late and (doing.ends is not None or doing.rests)
             self._orders(story.finish(doing) if late else doing.begins, [each])
         if rests and "for" in clause.times:
