@@ -123,7 +123,7 @@ def foreseen_otherwise(
     times = np.arange(tick.time_s, then_s + 1e-9, _LOOKED_AT_S)
     left = (t for t in times.tolist() if _is_off(foreseen.state(t), ego, t))
     since_s = next(left, then_s)
-    late = f", and the trigger came {abs(off_s):.1f} s {'later' if off_s > 0 else 'sooner'}"
+    late = f", and the trigger came, or was nearest, {abs(off_s):.1f} s {'later' if off_s > 0 else 'sooner'}"
     came = late if abs(off_s) > TIGHT.time_s else ""
     text = (
         f"the ego did not drive as foreseen: at {then_s:.1f} s it was {abs(off_m):.1f} m further "
