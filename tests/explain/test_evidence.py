@@ -87,6 +87,19 @@ def test_limit_is_one_that_the_hero_was_at() -> None:
     assert limit_reached(world, run, hero, 1.0, 3.0) is None, "it could have done more for most of the time"
 
 
+def test_a_limit_at_which_a_hero_was_for_a_moment_of_another_piece_does_not_count() -> None:
+    """For most of the one piece it was at none, and of the other hardly any lies between the two instants."""
+    world, run, _ = driven("yields, distance", "constant")
+    hero, states, limits = world.scene.program.actor(HERO), run.trace.actors["hero"], world.limits[HERO]
+    knots_s = run.last_plan.profiles[HERO].knot_times_s
+    lasts_s = knots_s["t2"] - knots_s["t1"]
+    states.accel_mps2[(states.time_s > knots_s["t1"]) & (states.time_s < knots_s["t1"] + 0.4 * lasts_s)] = -float(
+        limits.brake_max_mpss
+    )
+    states.accel_mps2[states.time_s >= knots_s["t2"]] = float(limits.accel_max_mpss)
+    assert limit_reached(world, run, hero, knots_s["t1"], knots_s["t2"] + 0.05) is None
+
+
 def test_ego_that_is_never_at_all_of_its_side_at_once() -> None:
     text = STORIES["yields, distance"] + "A0v(t1) == 14\n"
     world, run, verdict = driven(text, "dawdler")

@@ -13,7 +13,7 @@ import numpy as np
 
 from scenewright.judge.case import Case
 from scenewright.judge.knots import SIGN_OF, Measured, demands_standstill
-from scenewright.judge.phases import move_off_after, phase_at, rest_after
+from scenewright.judge.phases import Phase, move_off_after, phase_at, rest_after
 from scenewright.judge.terms import Span
 from scenewright.judge.tolerance import TIGHT, Every, Leaf
 from scenewright.judge.verdict import Condition, bounded, unjudged
@@ -106,16 +106,14 @@ def _beginning(case: Case, measured: Measured, hero: Actor, kind: PieceKind) -> 
 
 def _seen(case: Case, measured: Measured, hero: Actor, index: int) -> Iterator[Condition]:
     """Judge that a piece of braking or speeding up that begins at no trigger is one, from its beginning on."""
-    span, kind, manner = measured.moments.spans.get((hero.id, index)), hero.sketch.pieces[index], case.program.manner
-    stood = kind is PieceKind.DEC and hero.sketch.pieces[max(0, index - 1)] is PieceKind.STOP
-    if span is None or stood:
-        return  # that it never came to it is told of the piece; who stands does not brake
-    name, verb = hero.sketch.piece_names()[index], _VERBS[kind]
+    span, manner, timeline = measured.moments.spans.get((hero.id, index)), case.program.manner, case.timelines[hero.id]
+    if span is None or _brakes_from_rest(hero, index):
+        return  # that it never came to it is told of the piece
+    name, verb = hero.sketch.piece_names()[index], _VERBS[hero.sketch.pieces[index]]
     begins_s = float(manner.begins_s)
     text = f"{called(hero.name)} begins to {verb} where it is to, and goes on for {begins_s:g} s, or until it stands"
-    timeline = case.timelines[hero.id]
-    phase = phase_at(timeline, span[0], SIGN_OF[kind], manner)
-    if phase is None or phase.start_s >= span[1]:
+    phase = _phase_in(case, hero, index, span)
+    if phase is None:
         reason = f"{called(hero.name)} did not {verb} then"
         yield unjudged(f"{hero.name}_{name}_onset", "interaction", text, reason)
         return
@@ -163,14 +161,22 @@ def _piece(case: Case, measured: Measured, hero: Actor, index: int) -> Iterator[
 
 
 def _did(case: Case, measured: Measured, hero: Actor, index: int, span: Span) -> bool:
-    """Whether somebody braked or sped up at all in a piece that is to be that; who stands is not asked to brake."""
-    kind = hero.sketch.pieces[index]
+    """Whether somebody braked or sped up at all in a piece that is to be that."""
     if hero.sketch.knots[index] == case.structure.trigger_knot(hero.id):
         return measured.onsets.get(hero.id) is not None
-    if kind is PieceKind.DEC and hero.sketch.pieces[max(0, index - 1)] is PieceKind.STOP:
-        return True
-    phase = phase_at(case.timelines[hero.id], span[0], SIGN_OF[kind], case.program.manner)
-    return phase is not None and phase.start_s < span[1]
+    return _brakes_from_rest(hero, index) or _phase_in(case, hero, index, span) is not None
+
+
+def _brakes_from_rest(hero: Actor, index: int) -> bool:
+    """Whether a piece is one of braking behind one of standing: who stands is not asked to brake."""
+    return hero.sketch.pieces[max(0, index - 1) : index + 1] == (PieceKind.STOP, PieceKind.DEC)
+
+
+def _phase_in(case: Case, hero: Actor, index: int, span: Span) -> Phase | None:
+    """Return how somebody brakes or speeds up within the span of a piece that is to be that; None where it does not."""
+    sign = SIGN_OF[hero.sketch.pieces[index]]
+    phase = phase_at(case.timelines[hero.id], span[0], sign, case.program.manner)
+    return phase if phase is not None and phase.start_s < span[1] else None
 
 
 def _ends_standing(case: Case, measured: Measured, hero: Actor, index: int) -> bool:

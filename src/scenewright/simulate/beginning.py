@@ -131,7 +131,7 @@ def _saved_and_touched(world: World, start: EgoFirstState, attempt: Attempt) -> 
 
     Not those that the program asks to begin so.
     """
-    scene, near, touches = world.scene, list[int](), False
+    scene, ahead, touches = world.scene, list[int](), False
     heroes = {hero.id: attempt.plan.profiles[hero.id] for hero in scene.program.heroes}
     begins = Start.of(scene, world.ego, (start.s_m, start.speed_mps), heroes)
     ego = begins.first[EGO]
@@ -146,8 +146,8 @@ def _saved_and_touched(world: World, start: EgoFirstState, attempt: Attempt) -> 
         if abs(ahead_m) < VEHICLE_LENGTH_M:
             touches = True
         elif ahead_m > 0.0:
-            near.append(hero)
-    return (near if near and _brakes_hard(begins, heroes, world.rates.step_s) else []), touches
+            ahead.append(hero)
+    return (ahead if ahead and _brakes_hard(begins, heroes, world.rates.step_s) else []), touches
 
 
 def _brakes_hard(start: Start, heroes: Mapping[int, Profile], step_s: float) -> bool:

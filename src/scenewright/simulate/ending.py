@@ -35,7 +35,7 @@ class Ending:
     _told: list[ex.Term] = field(init=False)
     _meets: dict[int, str] = field(init=False)
     _values: dict[str, float] = field(init=False)
-    _waits_until_s: float = field(init=False, default=_STALLED_S)
+    _waits_until_s: float = field(init=False, default=0.0)  # for an ego that stands
 
     def __post_init__(self) -> None:
         self._told, self._meets = _told_times(self.scene.program), _meets_ego(self.scene.program)

@@ -163,7 +163,10 @@ class _Tried:
         return self.budget.witness(self.asked(Number(value)), guesses) is not None
 
     def up_to(self, end: Fraction, guesses: int = _GUESSES) -> Fraction | None:
-        """Return a value that does between the lever's own and another; None where none is found."""
+        """Return a value that does between the lever's own and another; None where none is found.
+
+        From so many `guesses` the other is tried by itself, where none between the two is found as an unknown.
+        """
         low, high = min(self.lever.value, end), max(self.lever.value, end)
         freed = replace(self.asked(ParameterRef(self.lever.name)), freed={self.lever.name: (low, high)})
         witness = self.budget.witness(freed)
