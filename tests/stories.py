@@ -22,7 +22,7 @@ from scenewright.simulate.loop import Rates, Run, simulate
 from scenewright.simulate.port import Start
 from scenewright.simulate.vehicles import EgoVehicle
 from scenewright.solve.arrival import LinearCondition, linear_conditions
-from scenewright.solve.limits import Limits, limits_on
+from scenewright.solve.limits import Limits, Signs, limits_on
 from scenewright.solve.plan import Plan
 
 HERO = 1
@@ -175,7 +175,9 @@ class Stage:
         self.limits: dict[int, Limits] = {i: limits_on(r, self.scene.road_map) for i, r in self.scene.routes.items()}
         self.conditions: tuple[LinearCondition, ...] = linear_conditions(self.scene, self.structure)
         self.ego = EgoVehicle(GuardedPolicy(policy, "ego"), self.scene.routes[EGO], self.scene.road_map, seed)
-        predictor = predictor or Driver.on(self.scene.routes[EGO], self.limits[EGO].natural_approach_speed_mps)
+        predictor = predictor or Driver.on(
+            self.scene.routes[EGO], Signs.of(self.scene.routes[EGO], self.scene.road_map)
+        )
         self.planner = Planner(self.scene, self.structure, self.limits, predictor, self.conditions)
         self.plans: list[Plan] = []
         self.first = (0.0, 0.0)

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from scenewright.plan.following import Leader
 from scenewright.plan.prediction import EgoSample
+from scenewright.solve.limits import Signs
 
 CRUISE_MPS = 13.9
+SIGNS = Signs((0.0,), (CRUISE_MPS,))
 
 
 def idm(moments: int, leader: Leader, s_m: float, speed_mps: float, headway_s: float) -> list[EgoSample]:

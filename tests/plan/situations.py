@@ -18,7 +18,7 @@ from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene, ground
 from scenewright.roads.load import load_map
 from scenewright.solve.arrival import linear_conditions
-from scenewright.solve.limits import limits_on
+from scenewright.solve.limits import Signs, limits_on
 from stories import STORIES
 
 Array = NDArray[np.float64]
@@ -63,7 +63,7 @@ def planner_of(scene: Scene) -> Planner:
     """Return a planner that has not begun."""
     structure = read_structure(scene.program)
     limits = {actor: limits_on(route, scene.road_map) for actor, route in scene.routes.items()}
-    predictor = Driver.on(scene.routes[EGO], limits[EGO].natural_approach_speed_mps)
+    predictor = Driver.on(scene.routes[EGO], Signs.of(scene.routes[EGO], scene.road_map))
     return Planner(scene, structure, limits, predictor, linear_conditions(scene, structure))
 
 

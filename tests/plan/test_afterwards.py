@@ -20,7 +20,7 @@ from scenewright.roads.bodies import VEHICLE_LENGTH_M
 WANTED, TICK_S, LASTS_S = Preferences(), 0.1, 40.0
 SURELY_M = 0.3
 NEVER = np.inf
-STRAIGHT = Caps(np.array([0.0]), np.array([NEVER]), np.array([NEVER]))
+STRAIGHT = Caps(np.array([0.0]), *[np.array([NEVER])] * 4)
 LANE = Meeting(1, 2, None, ((0.0, NEVER), (0.0, NEVER)))
 LATER_LANE = Meeting(2, 3, None, ((0.0, NEVER), (0.0, NEVER)))
 
@@ -87,7 +87,7 @@ def test_who_comes_to_a_bend_is_slow_enough_there_and_brakes_no_sooner_than_it_h
 ) -> None:
     along = np.arange(0.0, 300.0, 0.5)
     comfortable = np.where((along >= bend_m) & (along <= bend_m + 20.0), comfortable_mps, NEVER)
-    caps = Caps(along, 1.5 * comfortable, comfortable)
+    caps = Caps(along, 1.5 * comfortable, comfortable, *[np.full_like(along, NEVER)] * 2)
     motion = even(0.0, speed_mps)
     for k in range(1, round(LASTS_S / TICK_S)):
         motion = goes_on(1, {1: motion}, (), k * TICK_S, WANTED, caps)

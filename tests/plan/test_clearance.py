@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from followers import SIGNS
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -63,7 +64,7 @@ def test_whoever_is_to_have_merged_ahead_of_the_ego_is_not_planned_through_it() 
     assert clearance.ahead
     assert clearance.since_m == pytest.approx(scene.landmarks_m[HERO]["turn_end"], abs=1.0)
     structure = read_structure(scene.program)
-    planner = Planner(scene, structure, limits_of(scene), Driver(13.9), linear_conditions(scene, structure))
+    planner = Planner(scene, structure, limits_of(scene), Driver(SIGNS), linear_conditions(scene, structure))
     attempt = planner.begin((0.0, scene.landmarks_m[EGO]["intersection"] - 100.0, 13.9, 0.0))
     ego, hero = attempt.plan.profiles[EGO], attempt.plan.profiles[HERO]
     for k in range(int(10 * hero.knot_times_s["t1"]) + 1):
@@ -100,7 +101,7 @@ def test_who_only_crosses_need_not_keep_clear() -> None:
 def test_nobody_starts_or_drives_inside_the_other(ego_mps: float, slows_mpss: float) -> None:
     scene = BRAKES.scene()
     structure = read_structure(scene.program)
-    predictor = Driver.on(scene.routes[EGO], 13.9)
+    predictor = Driver.on(scene.routes[EGO], SIGNS)
     planner = Planner(scene, structure, limits_of(scene), predictor, linear_conditions(scene, structure))
     attempt = planner.begin((0.0, 180.0, ego_mps, slows_mpss))
     assert attempt.is_good

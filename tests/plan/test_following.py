@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from followers import CRUISE_MPS, idm
+from followers import CRUISE_MPS, SIGNS, idm
 
 from scenewright.motion.profile import Profile, chain
 from scenewright.plan.following import Leader, foresee_follower
@@ -19,7 +19,7 @@ def test_a_follower_is_foreseen_at_the_headway_that_it_is_seen_to_keep(headway_s
     leader = Leader(Profile(chain(0.0, 30.0, 9.0, [(1.0, 0.0, 0), (3.0, then_mpss, 0)])), 0.0)
     drive = idm(200, leader, 0.0, 10.0, headway_s)
     past, later = drive[:51], drive[-1]
-    base = Driver(CRUISE_MPS).predict(past)
+    base = Driver(SIGNS).predict(past)
     foreseen = foresee_follower(base, past, leader, CRUISE_MPS)
     off_m, base_off_m = (abs(profile.state(later[0])[0] - later[1]) for profile in (foreseen, base))
     assert off_m < 0.1
@@ -30,7 +30,7 @@ def test_one_that_does_otherwise_than_the_model_goes_on_to_for_a_moment() -> Non
     """It keeps its speed, as close as it is: it is foreseen to, and to fall back only later."""
     leader = Leader(Profile(chain(0.0, 10.0, 8.0, [(9.0, 0.0, 0)])), 0.0)
     past = [(0.02 * k, 0.16 * k, 8.0, 0.0) for k in range(60)]
-    foreseen = foresee_follower(Driver(CRUISE_MPS).predict(past), past, leader, CRUISE_MPS)
+    foreseen = foresee_follower(Driver(SIGNS).predict(past), past, leader, CRUISE_MPS)
     now_s, s_m, _, _ = past[-1]
     assert foreseen.state(now_s + 0.8)[:2] == pytest.approx((s_m + 6.4, 8.0), abs=0.1)
     assert foreseen.state(now_s + 8.0)[0] < s_m + 64.0
@@ -38,7 +38,7 @@ def test_one_that_does_otherwise_than_the_model_goes_on_to_for_a_moment() -> Non
 
 def test_a_leader_far_ahead_or_behind_changes_nothing() -> None:
     past = [(0.02 * k, 0.2 * k, 10.0, 0.0) for k in range(60)]
-    base = Driver(CRUISE_MPS).predict(past)
+    base = Driver(SIGNS).predict(past)
     behind = Leader(Profile(chain(0.0, -20.0, 10.0, [(9.0, 0.0, 0)])), 0.0)
     assert foresee_follower(base, past, behind, CRUISE_MPS) is base
     far = Leader(Profile(chain(0.0, 400.0, 10.0, [(9.0, 0.0, 0)])), 0.0)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from followers import SIGNS
 from many_heroes import PROGRAMS
 from situations import planner_of, scene_of
 
@@ -19,7 +20,7 @@ from stories import BRAKES_GAP, YIELDS_DISTANCE, program
 def foresight(text: str, predictor: Predictor) -> Foresight:
     scene = scene_of(text)
     structure = read_structure(scene.program)
-    found = Foresight(scene, structure, linear_conditions(scene, structure), predictor, 13.9)
+    found = Foresight(scene, structure, linear_conditions(scene, structure), predictor, SIGNS)
     found.samples.append((0.0, 150.0, 12.0, 0.0))
     return found
 
@@ -36,19 +37,19 @@ def test_an_ego_that_holds_its_speed_is_sure_and_follows_nobody() -> None:
 
 
 def test_behind_a_slower_hero_the_ego_is_foreseen_to_slow_down_and_the_more_the_nearer_it_is() -> None:
-    follower = foresight(BRAKES_GAP, Driver(13.9))
+    follower = foresight(BRAKES_GAP, Driver(SIGNS))
     assert list(follower.leaders(leading(15.0, 6.0))) == [1]
     near, far = (follower.foreseen(leading(ahead_m, 6.0)).state(3.0)[1] for ahead_m in (15.0, 60.0))
     assert near < far <= 12.5
 
 
 def test_one_that_crosses_its_way_is_not_followed() -> None:
-    assert foresight(YIELDS_DISTANCE, Driver(13.9)).leaders(leading(15.0, 6.0)) == {}
+    assert foresight(YIELDS_DISTANCE, Driver(SIGNS)).leaders(leading(15.0, 6.0)) == {}
 
 
 def test_one_that_merges_is_followed_from_where_it_is_on_the_lane() -> None:
     gap = "A0(t1) == A1(t1)\ngap(A0, A1, t1) == 20\nA1x(t1) == turn_end + 20\nA1v(t2) == 3\n"
-    ego = foresight(program("S, E", "t0, go, t1, dec, t2", gap, ego_route="E"), Driver(13.9))
+    ego = foresight(program("S, E", "t0, go, t1, dec, t2", gap, ego_route="E"), Driver(SIGNS))
     merges_m = ego.scene.landmarks_m[1]["turn_end"]
     for past_m, followed in ((-2.0, []), (2.0, [1])):
         motions = {1: Profile(chain(0.0, merges_m + past_m, 6.0, [(8.0, 0.0, 0)]), {"t0": 0.0, "t1": 4.0})}
@@ -57,7 +58,7 @@ def test_one_that_merges_is_followed_from_where_it_is_on_the_lane() -> None:
 
 @pytest.mark.parametrize("first", [True, False])
 def test_how_a_hero_is_answered_is_what_is_foreseen_of_it_where_it_is_otherwise(first: bool) -> None:
-    follower, motions = foresight(BRAKES_GAP, Driver(13.9)), leading(18.0, 10.0)
+    follower, motions = foresight(BRAKES_GAP, Driver(SIGNS)), leading(18.0, 10.0)
     prediction = follower.foreseen(motions)
     answer = follower.lanes(motions, 0.0, prediction, first=first).answers[1]
     if first:

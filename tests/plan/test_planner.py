@@ -316,6 +316,20 @@ def test_a_bound_on_the_distance_to_an_ego_that_follows_is_met_in_seconds(distan
     assert result.verdict.facts["trigger_time_s"]["hero"] < 12.0
 
 
+@pytest.mark.parametrize("ego", ["idm", "constant", "noisy"])
+@pytest.mark.parametrize(("hero", "ego_way", "place"), [("S, W", "W", ""), ("W", "S, W", "A0x(t1) == turn_end + 40\n")])
+def test_where_ways_have_merged_the_signs_of_that_road_count(hero: str, ego_way: str, place: str, ego: str) -> None:
+    """Of the road that one of them comes from, 20 km/h, neither a plan nor the forecast knows any more."""
+    rest = f"A0(t1) == A1(t1)\n{place}gap(A0, A1, t1) == 25\nA1v(t1) == 10\nA1v(t2) == 4"
+    result = orchestrate(Request(program(hero, "t0, go, t1, dec, t2", rest, ego_way), ego=ego, takes=1))
+    assert result.status == "success"
+    assert result.run is not None
+    merged_m = result.scene.landmarks_m[HERO]["turn_end"]
+    driven = result.run.trace.actors["hero"]
+    assert result.verdict is not None
+    assert driven.s_m[driven.time_s <= result.verdict.facts["trigger_time_s"]["hero"]][-1] > merged_m
+
+
 def test_whoever_begins_behind_the_ego_does_not_tailgate() -> None:
     rest = "A0(t1) == A1(t1)\nheadway(A1, A0, t1) == 1\nA1v(t1) >= 10\nA1a(dec) == -4\nA1v(t2) == 2"
     world = begin(Request(program("W", "t0, go, t1, dec, t2", rest), ego="idm"), Stages(None))[0]

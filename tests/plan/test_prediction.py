@@ -26,10 +26,12 @@ from scenewright.plan.prediction import (
 )
 from scenewright.roads.load import load_map
 from scenewright.roads.routes import Route, find_route
+from scenewright.solve.limits import Signs
 from stories import STORIES, Stage
 
 MAP = load_map("t_intersection")
 CRUISE_MPS = 13.9
+SIGNS = Signs((0.0,), (CRUISE_MPS,))
 BUMPER_M = 2.25
 
 
@@ -46,7 +48,7 @@ def steadily(s_m: float, speed_mps: float, accel_mpss: float, steps: int = 20) -
     ]
 
 
-@pytest.mark.parametrize("predictor", [ConstantSpeed(), Driver(CRUISE_MPS), Driver(CRUISE_MPS, ((500.0, 0.0),))])
+@pytest.mark.parametrize("predictor", [ConstantSpeed(), Driver(SIGNS), Driver(SIGNS, ((500.0, 0.0),))])
 @pytest.mark.parametrize("accel_mpss", [-6.0, -0.5, 0.0, 1.5])
 def test_prediction_begins_where_the_ego_is_and_never_reverses(predictor: Predictor, accel_mpss: float) -> None:
     profile = predictor.predict(steadily(30.0, 8.0, accel_mpss))
@@ -62,7 +64,7 @@ def test_constant_speed_keeps_the_last_speed() -> None:
 
 
 def test_an_acceleration_lasts_for_a_while() -> None:
-    profile = Driver(CRUISE_MPS).predict(steadily(30.0, 8.0, -1.5))
+    profile = Driver(SIGNS).predict(steadily(30.0, 8.0, -1.5))
     assert profile.state(5.0)[:2] == pytest.approx((30.0 + 8.0 - 0.75, 6.5))
     assert profile.state(9.0)[1] == pytest.approx(6.5)
 
@@ -95,11 +97,11 @@ def jitter(mean_mpss: float, by_mpss: float, steps: int = 60) -> list[float]:
 )
 def test_a_foot_goes_on_where_it_goes_one_way_and_slowly(accels_mpss: list[float], goes_on_to_mpss: float) -> None:
     past = past_of(accels_mpss)
-    foreseen = Driver(CRUISE_MPS).predict(past)
+    foreseen = Driver(SIGNS).predict(past)
     assert foreseen.state(past[-1][0] + 0.95)[2] == pytest.approx(goes_on_to_mpss, abs=0.1)
 
 
-@pytest.mark.parametrize("predictor", [Driver(CRUISE_MPS), Driver(CRUISE_MPS, ((500.0, 0.0),))])
+@pytest.mark.parametrize("predictor", [Driver(SIGNS), Driver(SIGNS, ((500.0, 0.0),))])
 @pytest.mark.parametrize("seen", [6, 10, 20])
 def test_who_begins_to_brake_is_foreseen_to_brake_harder(predictor: Predictor, seen: int) -> None:
     braking = [-2.0 * (1.0 - math.exp(-0.025 * k)) for k in range(100)]
@@ -114,7 +116,7 @@ def test_who_begins_to_brake_is_foreseen_to_brake_harder(predictor: Predictor, s
 def test_an_unsteady_foot_moves_what_is_foreseen_little() -> None:
     chance = random.Random(1)
     past = past_of([chance.gauss(-0.8, 0.15) for _ in range(80)])
-    foreseen = [Driver(CRUISE_MPS).predict(past[:k]).state(past[k - 1][0] + 0.5)[2] for k in range(40, 80)]
+    foreseen = [Driver(SIGNS).predict(past[:k]).state(past[k - 1][0] + 0.5)[2] for k in range(40, 80)]
     assert np.std(foreseen) < 0.5 * np.std([sample[3] for sample in past])
 
 
@@ -127,23 +129,23 @@ def test_who_speeds_up_on_purpose_goes_on_to_what_people_drive(speed_mps: float)
         past.append((time_s, past[-1][1] + 0.02 * past[-1][2] if past else 0.0, free, accel))
         free += 0.02 * accel
     seen = past[:60]
-    foreseen = Driver(CRUISE_MPS).predict(seen)
+    foreseen = Driver(SIGNS).predict(seen)
     then = past[60 + 200]
     assert foreseen.state(then[0])[1] == pytest.approx(then[2], abs=0.3)
     assert foreseen.state(then[0])[0] == pytest.approx(then[1], abs=0.6)
     gently = past_of([0.3] * 60, speed_mps)
-    assert Driver(CRUISE_MPS).predict(gently).state(9.0)[1] == pytest.approx(gently[-1][2] + 0.3)
+    assert Driver(SIGNS).predict(gently).state(9.0)[1] == pytest.approx(gently[-1][2] + 0.3)
 
 
 def test_ego_that_stands_sets_off_again() -> None:
-    profile = Driver(CRUISE_MPS).predict([(4.0, 30.0, 0.0, 0.0)])
+    profile = Driver(SIGNS).predict([(4.0, 30.0, 0.0, 0.0)])
     assert profile.state(5.4)[:2] == pytest.approx((30.0, 0.0))
     assert profile.state(6.5)[1] == pytest.approx(1.2)
     assert profile.state(60.0)[1] == pytest.approx(5.0)
 
 
 def test_ego_that_brakes_to_a_stand_stops_first_and_sets_off_then() -> None:
-    profile = Driver(CRUISE_MPS).predict(steadily(30.0, 2.0, -4.0))
+    profile = Driver(SIGNS).predict(steadily(30.0, 2.0, -4.0))
     assert profile.state(4.5)[:2] == pytest.approx((30.5, 0.0))
     assert profile.state(5.9)[1] == pytest.approx(0.0)
     assert profile.state(6.1)[1] > 0.0
@@ -152,7 +154,7 @@ def test_ego_that_brakes_to_a_stand_stops_first_and_sets_off_then() -> None:
 def test_driver_stops_with_its_bumper_at_the_line() -> None:
     own = route("S", "W")
     line_m = own.landmarks["stop_line"]
-    profile = Driver.on(own, CRUISE_MPS).predict([(4.0, line_m - 40.0, 8.0, 0.0)])
+    profile = Driver.on(own, SIGNS).predict([(4.0, line_m - 40.0, 8.0, 0.0)])
     stands_m = [s for s, v in (profile.state(4.0 + 0.05 * k)[:2] for k in range(400)) if v == 0.0]
     assert stands_m
     assert line_m - 3.5 <= stands_m[0] <= line_m - BUMPER_M
@@ -162,7 +164,7 @@ def test_driver_stops_with_its_bumper_at_the_line() -> None:
 def test_driver_slows_down_for_its_turn() -> None:
     own = route("E", "N")
     start_m, end_m = own.landmarks["turn_start"], own.landmarks["turn_end"]
-    predictor = Driver.on(own, CRUISE_MPS)
+    predictor = Driver.on(own, SIGNS)
     profile = predictor.predict([(4.0, start_m - 60.0, 13.0, 0.0)])
     assert profile.state(4.0)[1] == pytest.approx(13.0)
     in_turn = profile.state(profile.time_at(0.5 * (start_m + end_m)) or 0.0)[1]
@@ -173,7 +175,7 @@ def test_driver_slows_down_for_its_turn() -> None:
 def test_driver_drives_no_bend_faster_than_people_do() -> None:
     own = route("E", "N")
     start_m, end_m = own.landmarks["turn_start"], own.landmarks["turn_end"]
-    profile = Driver.on(own, CRUISE_MPS).predict([(4.0, start_m - 60.0, 13.0, 0.0)])
+    profile = Driver.on(own, SIGNS).predict([(4.0, start_m - 60.0, 13.0, 0.0)])
     for k in range(1, int(end_m - start_m)):
         _, speed_mps, _ = profile.state(profile.time_at(start_m + k) or 0.0)
         assert speed_mps**2 * abs(own.path.curvature(start_m + k)) < 2.5 * 1.2
@@ -186,7 +188,7 @@ def test_when_a_driver_slows_down_does_not_depend_on_when_it_was_asked(turn: tup
     for k in range(20):
         asked_s = 0.02 * k
         past = [(0.02 * j, place_m - 60.0 + 0.24 * j, 12.0, 0.0) for j in range(k + 1)]
-        arrives_s = Driver.on(own, CRUISE_MPS).predict(past).time_at(place_m)
+        arrives_s = Driver.on(own, SIGNS).predict(past).time_at(place_m)
         assert arrives_s is not None
         assert arrives_s > asked_s
         found.append(arrives_s)
@@ -198,7 +200,7 @@ def test_driver_believes_one_that_does_not_brake_in_time() -> None:
     line_m = own.landmarks["stop_line"]
     speeds = {}
     for accel_mpss in (0.0, -2.0):
-        profile = Driver(CRUISE_MPS, ((line_m - 2.6, 0.0),)).predict(steadily(line_m - 12.0, 9.0, accel_mpss))
+        profile = Driver(SIGNS, ((line_m - 2.6, 0.0),)).predict(steadily(line_m - 12.0, 9.0, accel_mpss))
         speeds[accel_mpss] = min(profile.state(4.0 + 0.05 * k)[1] for k in range(100))
     assert speeds[0.0] == pytest.approx(9.0)  # it would have to brake at 4.3 m/s^2 and does not even begin to
     assert speeds[-2.0] == 0.0
@@ -207,18 +209,18 @@ def test_driver_believes_one_that_does_not_brake_in_time() -> None:
 def test_driver_looks_at_nothing_behind_it() -> None:
     own = route("S", "W")
     past = steadily(own.landmarks["turn_end"] + 5.0, 8.0, 0.5)
-    assert [s.accel_mpss for s in Driver.on(own, CRUISE_MPS).predict(past).segments] == [
-        s.accel_mpss for s in Driver(CRUISE_MPS).predict(past).segments
+    assert [s.accel_mpss for s in Driver.on(own, SIGNS).predict(past).segments] == [
+        s.accel_mpss for s in Driver(SIGNS).predict(past).segments
     ]
 
 
 def test_predictors_have_names() -> None:
     own = route("S", "W")
-    assert predictor_called("speed", own, CRUISE_MPS) == ConstantSpeed()
-    assert predictor_called("acceleration", own, CRUISE_MPS) == Driver(CRUISE_MPS)
-    assert predictor_called("road", own, CRUISE_MPS) == Driver.on(own, CRUISE_MPS)
+    assert predictor_called("speed", own, SIGNS) == ConstantSpeed()
+    assert predictor_called("acceleration", own, SIGNS) == Driver(SIGNS)
+    assert predictor_called("road", own, SIGNS) == Driver.on(own, SIGNS)
     with pytest.raises(InputError, match="no such predictor"):
-        predictor_called("crystal ball", own, CRUISE_MPS)
+        predictor_called("crystal ball", own, SIGNS)
 
 
 @dataclass
@@ -234,7 +236,7 @@ class Counted:
         return self.inner.predict(history)
 
 
-@pytest.mark.parametrize("inner", [ConstantSpeed(), Driver(CRUISE_MPS), Driver.on(route("W"), CRUISE_MPS)])
+@pytest.mark.parametrize("inner", [ConstantSpeed(), Driver(SIGNS), Driver.on(route("W"), SIGNS)])
 def test_any_predictor_can_drive_the_loop(inner: Predictor) -> None:
     predictor = Counted(inner)
     stage = Stage(STORIES["yields, distance"], Noisy(), seed=3, predictor=predictor)

@@ -14,7 +14,7 @@ import numpy as np
 
 from scenewright.program.structure import standstills
 from scenewright.program.types import PieceKind
-from scenewright.solve.limits import limits_on
+from scenewright.solve.limits import Signs
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -93,7 +93,7 @@ def _of_hero(
     s_m, speed_mps = (np.interp([trigger_s, next_s], driven.time_s, row) for row in (driven.s_m, driven.speed_mps))
     route = scene.routes[hero.id]
     curve_mps = (_COMFORTABLE_MPSS / max(abs(route.path.curvature(float(s_m[0]))), 1e-6)) ** 0.5
-    limit_mps = min(limits_on(route, scene.road_map).natural_approach_speed_mps, curve_mps)
+    limit_mps = min(Signs.of(route, scene.road_map).at_mps(float(s_m[0])), curve_mps)
     allowed_mps = min(limit_mps, float(np.sqrt(speed_mps[1] ** 2 + 2 * _BRAKES_MPSS * max(0.0, s_m[1] - s_m[0]))))
     return Approach(
         _reverses(accels),

@@ -17,8 +17,9 @@ from scenewright.plan.triggers import adapts_until
 from scenewright.program.structure import Structure, actors_of, knots_of, speeds_told_at, stands_at_end
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
+from scenewright.roads.model import RoadMap
 from scenewright.roads.routes import Route
-from scenewright.solve.limits import Limits
+from scenewright.solve.limits import Limits, Signs
 from scenewright.solve.proofs.compiled import Compiled
 from scenewright.solve.proofs.events import EgoBounds, Events
 from scenewright.solve.proofs.lowering import Lowering
@@ -77,7 +78,7 @@ class Asked:
         self._spares = [_SPARE * (two and EGO not in whose) for two, whose in zip(alone, times_of, strict=True)]
         self._quotients = list(self._quotients_of(atoms))
         self.caps = {
-            hero.id: caps_of(scene.routes[hero.id], limits[hero.id], self.wanted.lateral_mpss)
+            hero.id: caps_of(scene.routes[hero.id], scene.road_map, limits[hero.id], self.wanted.lateral_mpss)
             for hero in scene.program.heroes
         }
         landmarks = {hero.id: scene.routes[hero.id].landmarks for hero in scene.program.heroes}
@@ -174,20 +175,26 @@ def number_of(value: Polynomial) -> int | None:
 
 @dataclass(frozen=True, slots=True)
 class Caps:
-    """How fast a route may be driven: at places (m), at most and in comfort (m/s)."""
+    """How fast a route may be driven (m/s) at places (m): at most, and in comfort in its bends.
+
+    On the way to a trigger also at most, and as is natural, by its signs.
+    """
 
     places: Array
     most: Array
     comfortable: Array
+    most_before: Array
+    natural_before: Array
 
-    def at(self, s_m: Array) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
-        """Return both caps at places, each with how it changes from there (1/s)."""
+    def at(self, s_m: Array) -> Iterator[tuple[Array, Array]]:
+        """Yield all of them at places, each with how it changes from there (1/s)."""
         around = np.array([s_m - _STEP_M, s_m, s_m + _STEP_M])
-        most, comfortable = (np.interp(around, self.places, caps) for caps in (self.most, self.comfortable))
-        return (most[1], most[2] - most[0]), (comfortable[1], comfortable[2] - comfortable[0])
+        for caps in (self.most, self.comfortable, self.most_before, self.natural_before):
+            before, here, after = np.interp(around, self.places, caps)
+            yield here, after - before
 
 
-def caps_of(route: Route, limits: Limits, comfortable_mpss: float) -> Caps:
+def caps_of(route: Route, road_map: RoadMap, limits: Limits, comfortable_mpss: float) -> Caps:
     """Return how fast a route may be driven, in comfort with so much sideways."""
     places = np.arange(0.0, route.path.length_m + _STEP_M, _STEP_M)
     bends = np.array([abs(route.path.curvature(float(s))) for s in places])
@@ -198,4 +205,4 @@ def caps_of(route: Route, limits: Limits, comfortable_mpss: float) -> Caps:
     most, comfortable = (
         np.minimum(np.sqrt(a / sharpest), top) for a in (_OF_LATERAL * limits.lateral_max_mpss, comfortable_mpss)
     )
-    return Caps(places, most, comfortable)
+    return Caps(places, most, comfortable, *limits.before_trigger_mps(Signs.of(route, road_map).evenly_mps(places)))

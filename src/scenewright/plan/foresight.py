@@ -18,6 +18,7 @@ from scenewright.program.structure import Structure
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import LinearCondition
+from scenewright.solve.limits import Signs
 
 _SHORTEST_S = 0.1  # in less time nothing can be answered
 _LITTLE = 0.1  # by so many metres, or metres a second, heroes are foreseen otherwise to ask for an answer
@@ -33,8 +34,8 @@ class Foresight:
     ----------
     predictor
         Foresees it where it follows nobody.
-    cruise_mps
-        How fast people drive where it does.
+    signs
+        How fast people drive on its way.
     samples
         What was seen of it, in time order.
     """
@@ -43,7 +44,7 @@ class Foresight:
     structure: Structure
     conditions: Sequence[LinearCondition]
     predictor: Predictor
-    cruise_mps: float
+    signs: Signs
     samples: list[EgoSample] = field(default_factory=list)
     _on_lane: dict[int, Clearance] = field(init=False)
 
@@ -89,8 +90,12 @@ class Foresight:
         prediction = self.predictor.predict(self.samples)
         for hero, clearance in self.leaders(motions).items():
             leader = Leader(motions[hero], clearance.offset_m)
-            prediction = foresee_follower(prediction, self.samples, leader, self.cruise_mps)
+            prediction = foresee_follower(prediction, self.samples, leader, self._cruise_mps(leader))
         return prediction
+
+    def _cruise_mps(self, leader: Leader) -> float:
+        """Return how fast people drive where a leader is."""
+        return self.signs.at_mps(leader.motion.state(self.samples[-1][0])[0] + leader.offset_m)
 
     def states(self, prediction: Profile) -> SeenAndForeseen:
         """Return its states, past and foreseen."""
@@ -115,7 +120,7 @@ class Foresight:
 
         def answered(otherwise: Otherwise) -> tuple[float, float]:
             leader = Leader(otherwise, clearance.offset_m)
-            then = foresee_follower(alone, self.samples, leader, self.cruise_mps).state(then_s)
+            then = foresee_follower(alone, self.samples, leader, self._cruise_mps(leader)).state(then_s)
             return (then[0] - place_m) / _LITTLE, (then[1] - speed_mps) / _LITTLE
 
         if first:

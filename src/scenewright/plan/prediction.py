@@ -16,6 +16,7 @@ from scenewright.errors import InputError
 from scenewright.motion.profile import Profile, chain
 from scenewright.roads.routes import Route
 from scenewright.roads.turns import TurnSpan
+from scenewright.solve.limits import Signs
 
 # (time_s, s_m, speed_mps, accel_mpss) of one past step.
 EgoSample = tuple[float, float, float, float]
@@ -67,18 +68,18 @@ class Driver:
 
     Attributes
     ----------
-    cruise_mps
+    signs
         How fast people drive there: one that speeds up on purpose goes on to that, as the intelligent driver model's
         free road has it.
     places
         ``(s_m, speed_mps)``: where it slows down to what; none where nothing is known of its road.
     """
 
-    cruise_mps: float
+    signs: Signs
     places: tuple[tuple[float, float], ...] = ()
 
     @classmethod
-    def on(cls, route: Route, cruise_mps: float) -> Driver:
+    def on(cls, route: Route, signs: Signs) -> Driver:
         """Return the predictor for an ego on `route`, which slows for its turn and stops at its stop line."""
         places: list[tuple[float, float]] = []
         if route.origin_kind == "driveway" and "stop_line" in route.landmarks:
@@ -89,7 +90,7 @@ class Driver:
             along = [turn.start_m + k * _BEND_STEP_M for k in range(steps + 1)]
             bends = [(s_m, abs(route.path.curvature(s_m))) for s_m in along]
             places += [(s_m, math.sqrt(_LATERAL_MPSS / bend)) for s_m, bend in bends if bend > _STRAIGHT]
-        return cls(cruise_mps, tuple(places))
+        return cls(signs, tuple(places))
 
     def predict(self, history: Sequence[EgoSample]) -> Profile:
         """Return the motion step by step, until it comes to a stand and has set off again."""
@@ -101,7 +102,7 @@ class Driver:
             turned = 1.0 - math.exp(-(elapsed_s + 0.5 * lasts_s) / _CHANGES_FOR_S)
             accel = accel_mpss + change_mpsss * _CHANGES_FOR_S * turned
             if elapsed_s >= GOES_ON_S:
-                accel = pull_mpss * max(0.0, 1.0 - (speed_mps / self.cruise_mps) ** 4)
+                accel = pull_mpss * max(0.0, 1.0 - (speed_mps / self.signs.at_mps(s_m)) ** 4)
             ahead = [place for place in ahead if place[0] > s_m]
             if elapsed_s >= GOES_ON_S and not (ahead or pull_mpss):
                 break  # it holds its speed
@@ -116,12 +117,13 @@ class Driver:
 
     def _pull_mpss(self, history: Sequence[EgoSample]) -> float:
         """Return the acceleration from standstill of one that speeds up on purpose, fitted to what is seen; else 0."""
-        time_s, _, speed_mps, now_mpss = history[-1]
+        time_s, s_m, speed_mps, now_mpss = history[-1]
+        cruise_mps = self.signs.at_mps(s_m)
         before = next((sample for sample in reversed(history) if sample[0] <= time_s - _LATELY_S), history[0])
         gained = (speed_mps - before[2]) / (time_s - before[0]) if time_s > before[0] else now_mpss
-        if min(gained, now_mpss) < _ON_PURPOSE_MPSS or speed_mps >= _AS_FAST * self.cruise_mps:
+        if min(gained, now_mpss) < _ON_PURPOSE_MPSS or speed_mps >= _AS_FAST * cruise_mps:
             return 0.0
-        return min(_HARDEST_PULL_MPSS, gained / (1.0 - (speed_mps / self.cruise_mps) ** 4))
+        return min(_HARDEST_PULL_MPSS, gained / (1.0 - (speed_mps / cruise_mps) ** 4))
 
 
 def _foot(history: Sequence[EgoSample]) -> tuple[float, float]:
@@ -163,8 +165,8 @@ def _needed_mpss(places: Sequence[tuple[float, float]], s_m: float, speed_mps: f
     return needed
 
 
-def predictor_called(name: str, route: Route, cruise_mps: float) -> Predictor:
-    """Return a predictor by its name, for an ego on `route`, where people drive at `cruise_mps`.
+def predictor_called(name: str, route: Route, signs: Signs) -> Predictor:
+    """Return a predictor by its name, for an ego on `route`, where people drive as `signs` say.
 
     Raises
     ------
@@ -172,8 +174,8 @@ def predictor_called(name: str, route: Route, cruise_mps: float) -> Predictor:
         Where there is none of that name.
     """
     makers: dict[str, Callable[[], Predictor]] = {
-        "road": lambda: Driver.on(route, cruise_mps),
-        "acceleration": lambda: Driver(cruise_mps),
+        "road": lambda: Driver.on(route, signs),
+        "acceleration": lambda: Driver(signs),
         "speed": ConstantSpeed,
     }
     if name not in makers:

@@ -155,14 +155,13 @@ class HeroRows:
         acts = len(shot.s) if number is None else shot.first_node[number]
         free = slice(1 if self.hero.id in self.now.heroes else 0, None)  # how fast it is now nothing changes
         onto = np.arange(len(shot.s))[free] > acts  # on its way to whatever road comes next
-        natural = np.where(onto, limits.natural_speed_mps, limits.natural_approach_speed_mps)
         # Who brakes into a bend is midway between two nodes faster than the second of them alone allows there.
         s, v, d_s, d_v = (0.5 * (each[1:] + each[:-1]) for each in (shot.s, shot.v, shot.d_s, shot.d_v))
-        most, slope = caps.at(s)[0]
+        most, slope = next(caps.at(s))
         bends = most < caps.most.max()
         self.bounds.add_all((v - most)[bends], (d_v - slope[:, None] * d_s)[bends], FIRM * wanted.price)
         s, v, d_s, d_v = (each[free] for each in (shot.s, shot.v, shot.d_s, shot.d_v))
-        (most, slope), (comfortable, other) = caps.at(s)
+        (most, slope), (comfortable, other), _, (natural, third) = caps.at(s)
         self.bounds.add_all(-v, -d_v, FIRM * wanted.price)
         # Its last knot is on its road, unless the program asks for one at its end.
         end_m = self.asked.scene.routes[self.hero.id].landmarks["route_end"] - VEHICLE_LENGTH_M
@@ -170,7 +169,8 @@ class HeroRows:
         self.bounds.add(s_m - end_m, d_s_m, wanted.price / _TIGHT_LENGTH, wanted.out_of_way_most)
         self.bounds.add_all(v - most, d_v - slope[:, None] * d_s, FIRM * wanted.price)
         self.costs.beyond(v - comfortable, d_v - other[:, None] * d_s, wanted.lateral_weight)
-        self.costs.beyond(v - natural, d_v, wanted.over_limit_weight)
+        natural, third = np.where(onto, limits.natural_speed_mps, natural), np.where(onto, 0.0, third)
+        self.costs.beyond(v - natural, d_v - third[:, None] * d_s, wanted.over_limit_weight)
 
     # -- manner -------------------------------------------------------------------------------------------------------
     def _pieces(self) -> None:
@@ -221,8 +221,9 @@ class HeroRows:
         node = shot.first_node[number]
         _, v, _, d_v = shot.at_node(node)
         if node and PieceKind.STOP not in (begins.kind, shot.legs[number - 1].kind):
-            natural_mps = wanted.natural_share * self.asked.limits[self.hero.id].natural_approach_speed_mps
-            self.costs.add(v - natural_mps, d_v, wanted.trigger_speed_weight)
+            *_, (natural, slope) = self.asked.caps[self.hero.id].at(shot.s[node : node + 1])
+            natural, slope = wanted.natural_share * natural[0], wanted.natural_share * slope[0]
+            self.costs.add(v - natural, d_v - slope * shot.d_s[node], wanted.trigger_speed_weight)
             self.bounds.add(wanted.slowest_mps - v, -d_v, wanted.slowest_price)
             if self.hero.id not in self.asked.speed_told:
                 self.bounds.add(wanted.moves_mps - v, -d_v, wanted.price / _TIGHT_SPEED)
@@ -277,9 +278,12 @@ class HeroRows:
         run_up_m, d_run_up = v_there**2 / (2.0 * wanted.sets_off_mpss), v_there / wanted.sets_off_mpss * d_v_there
         first = 1 if hero in self.now.heroes else 0
         s_m, v, d_s, d_v = (each[first : last + 1] for each in (shot.s, shot.v, shot.d_s, shot.d_v))
-        if zone_m is not None:
+        # Who is to be ahead of the ego behind that zone is through it before: an ego that lets it pass would wait.
+        through = zone_m is not None and place_m > zone_m and self.now.lanes.apart.get(hero, (0.0,))[0] > 0.0
+        if zone_m is not None and not through:
             self.bounds.add_all(s_m - zone_m, d_s, wanted.out_of_way_price, wanted.out_of_way_most)
-        self.bounds.add_all(v - self.asked.limits[hero].approach_speed_max_mps, d_v, wanted.price / _TIGHT_SPEED)
+        _, _, (most, slope), _ = self.asked.caps[hero].at(s_m)
+        self.bounds.add_all(v - most, d_v - slope[:, None] * d_s, wanted.price / _TIGHT_SPEED)
         if hero in self.now.waits:
             waits = until_s - shot.time[first : last + 1] > v_there / wanted.sets_off_mpss + wanted.waits_s
             beyond_m = s_m + v**2 / (2.0 * wanted.waits_mpss) + run_up_m - place_m

@@ -19,13 +19,14 @@ from scenewright.program.structure import Role, Structure, knots_of
 from scenewright.program.types import EGO, Actor, PieceKind
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import LinearCondition, linear_conditions
-from scenewright.solve.limits import Limits
+from scenewright.solve.limits import Limits, Signs
 from scenewright.solve.plan import Plan
 
-# By how much a trigger of several heroes moves in a tick at most (s), unless it comes so soon (s) that it has to: steps
-# from far off are slow. Measured (docs/many-heroes.md): ticks with an ego that stops and goes take a third as long, and
-# as many are met; with 0.25 s, or wherever the trigger comes, fewer are.
-_MOVES_S, _SOON_S = 0.5, 1.0
+# By how much a trigger of several heroes moves in a tick at most (s), unless it is so far off and comes so soon that it
+# has to: then by so much (s) of what is missing, for each second that is left. Steps from far off are slow. Measured
+# (docs/many-heroes.md): ticks with an ego that stops and goes take a fifth as long, and as many are met; with 0.25 s,
+# with 0.3 s of what is missing, or with neither fewer are.
+_MOVES_S, _SOON_S = 0.5, 0.5
 
 
 @dataclass(slots=True)
@@ -63,9 +64,9 @@ class Standing:
     def __post_init__(self, predictor: Predictor) -> None:
         self._asked = Asked(self.scene, self.structure, self.limits)
         self._times = TriggerTimes(self.scene, self.structure, self.conditions)
-        cruise_mps = self.limits[EGO].natural_approach_speed_mps
+        signs = Signs.of(self.scene.routes[EGO], self.scene.road_map)
         told = linear_conditions(self.scene, self.structure, with_bounds=True)
-        self._ego = Foresight(self.scene, self.structure, told, predictor, cruise_mps)
+        self._ego = Foresight(self.scene, self.structure, told, predictor, signs)
 
     def observe(self, sample: EgoSample) -> None:
         """Take note of the ego's state after a step, and of the knots that it passed in it."""

@@ -13,7 +13,7 @@ import numpy as np
 
 from scenewright.motion.profile import Profile
 from scenewright.plan.afterwards import goes_on
-from scenewright.plan.asked import caps_of
+from scenewright.plan.asked import Caps, caps_of
 from scenewright.plan.pairs import passes_s
 from scenewright.plan.preferences import Preferences
 from scenewright.roads.bodies import CAR
@@ -36,7 +36,8 @@ def run_of_witness(scene: Scene, limits: Mapping[int, Limits], witness: Witness)
     profiles = dict(witness.profiles)
     ends_s = []
     for hero in scene.program.heroes:
-        profiles[hero.id], end_s = _driven_on(scene.routes[hero.id], profiles[hero.id], limits[hero.id], until_s)
+        caps = caps_of(scene.routes[hero.id], scene.road_map, limits[hero.id], Preferences().lateral_mpss)
+        profiles[hero.id], end_s = _driven_on(caps, profiles[hero.id], until_s)
         ends_s.append(end_s)
     ends_s += [passes_s(motion, scene.routes[actor].landmarks["route_end"]) for actor, motion in profiles.items()]
     until_s = _apart_until(scene, profiles, witness.end_s, max(min(until_s, *ends_s), witness.end_s))
@@ -47,13 +48,12 @@ def run_of_witness(scene: Scene, limits: Mapping[int, Limits], witness: Witness)
     return Run(Trace(actors), plan, plan, [], "finished", ego_knots_s=knots_s)
 
 
-def _driven_on(route: Route, motion: Profile, limits: Limits, until_s: float) -> tuple[Profile, float]:
+def _driven_on(caps: Caps, motion: Profile, until_s: float) -> tuple[Profile, float]:
     """Return a motion that goes on after its last moment as any hero does then, and until when.
 
     It ends where it would be too fast for a bend that comes too soon.
     """
     now, wanted = motion.end_s, Preferences()
-    caps = caps_of(route, limits, wanted.lateral_mpss)
     while now < until_s and motion.state(now)[1] <= np.interp(motion.state(now)[0], caps.places, caps.most):
         motion, now = goes_on(0, {0: motion}, (), now, wanted, caps), now + _ON_STEP_S
     return motion, now

@@ -16,7 +16,7 @@ from scenewright.simulate.loop import Rates
 from scenewright.simulate.port import SIMULATORS
 from scenewright.simulate.vehicles import EgoVehicle
 from scenewright.solve.feasibility import EgoBounds, Feasibility
-from scenewright.solve.limits import Limits, limits_on
+from scenewright.solve.limits import Limits, Signs, limits_on
 from scenewright.solve.parameters import settle
 from scenewright.solve.proofs.refuters import SOLVERS
 
@@ -73,7 +73,7 @@ class World:
             if promise is not None
             else EgoBounds()
         )
-        chosen = predictor_called(predictor, scene.routes[EGO], self.limits[EGO].natural_approach_speed_mps)
+        chosen = predictor_called(predictor, scene.routes[EGO], Signs.of(scene.routes[EGO], scene.road_map))
         # Who has promised to hold its speed needs no foresight, and where nobody looks again it would be in vain.
         steady = rates.replan_s is None or self.ego_bounds.holds_speed
         self.predictor: Predictor = ConstantSpeed() if steady else chosen
