@@ -24,8 +24,8 @@ from scenewright.solve.plan import Plan
 
 # By how much a trigger of several heroes moves in a tick at most (s), unless it is so far off and comes so soon that it
 # has to: then by so much (s) of what is missing, for each second that is left. Steps from far off are slow. Measured
-# (docs/many-heroes.md): ticks with an ego that stops and goes take a fifth as long, and as many are met; with 0.25 s,
-# with 0.3 s of what is missing, or with neither fewer are.
+# (docs/many-heroes.md): the longest ticks, with an ego that stops and goes, take a third as long, and as many are met;
+# with 0.25 s, with 0.3 s of what is missing, or with neither fewer are.
 _MOVES_S, _SOON_S = 0.5, 0.5
 
 
