@@ -142,7 +142,7 @@ def test_caps_are_those_of_bends_and_of_the_road(route: str, turns: bool) -> Non
     asked = asked_for("A1v(t1) >= 2", route)
     caps, limits, path = asked.caps[HERO], asked.limits[HERO], asked.scene.routes[HERO].path
     for s_m in np.linspace(1.0, path.length_m - 1.0, 300):
-        (most, _), (comfortable, _), *_ = caps.at(s_m)
+        most, comfortable = (caps.at(s_m, each)[0] for each in (caps.most, caps.comfortable))
         bend = abs(path.curvature(float(s_m)))
         assert comfortable <= most < limits.speed_max_mps
         assert most**2 * bend <= limits.lateral_max_mpss
@@ -154,7 +154,8 @@ def test_caps_tell_how_they_change() -> None:
     caps = asked_for("A1v(t1) >= 2").caps[HERO]
     steep = 0
     for s_m in np.arange(1.0, caps.places[-1] - 1.0, 0.5):
-        for before, (here, slope), after in zip(*(caps.at(s_m + by) for by in (-0.5, 0.0, 0.5)), strict=True):
+        for speeds in (caps.most, caps.comfortable, caps.most_before, caps.natural_before):
+            before, (here, slope), after = (caps.at(s_m + by, speeds) for by in (-0.5, 0.0, 0.5))
             assert slope == pytest.approx(after[0] - before[0], abs=1e-9)
             steep += abs(slope) > 0.5
             assert here > 0.0

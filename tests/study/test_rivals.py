@@ -125,8 +125,8 @@ def test_manoeuvre_begins_at_the_step_where_both_conditions_first_hold(ego: str)
     assert result.run is not None
     ego_trace, hero = result.run.trace.actors["ego"], result.run.trace.actors["hero"]
     own, others = result.scene.landmarks_m[HERO]["conflict_point"], result.scene.landmarks_m[EGO]["conflict_point"]
-    # Compared are values of the plan, which is as near as its solver is; in a step a car drives 0.1 m and more.
-    both = (others - ego_trace.s_m <= 30.0 + 1e-3) & (own - hero.s_m <= 18.0 + 1e-3)
+    # Conditions have measured places to 0.1 mm (`scenewright.units.pin`), so they are half of that off at most.
+    both = (others - ego_trace.s_m <= 30.0 + 6e-5) & (own - hero.s_m <= 18.0 + 6e-5)
     begins = int(np.flatnonzero(hero.accel_mps2 < -0.5)[0])
     assert begins == int(np.flatnonzero(both)[0])
     # Before that the hero knew of nothing to react to: it went as planned, and then on as fast as it was.

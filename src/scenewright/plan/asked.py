@@ -186,12 +186,10 @@ class Caps:
     most_before: Array
     natural_before: Array
 
-    def at(self, s_m: Array) -> Iterator[tuple[Array, Array]]:
-        """Yield all of them at places, each with how it changes from there (1/s)."""
-        around = np.array([s_m - _STEP_M, s_m, s_m + _STEP_M])
-        for caps in (self.most, self.comfortable, self.most_before, self.natural_before):
-            before, here, after = np.interp(around, self.places, caps)
-            yield here, after - before
+    def at(self, s_m: Array, speeds_mps: Array) -> tuple[Array, Array]:
+        """Return one of them at places, and how it changes from there (1/s)."""
+        before, here, after = np.interp(np.array([s_m - _STEP_M, s_m, s_m + _STEP_M]), self.places, speeds_mps)
+        return here, after - before
 
 
 def caps_of(route: Route, road_map: RoadMap, limits: Limits, comfortable_mpss: float) -> Caps:

@@ -157,20 +157,22 @@ class HeroRows:
         onto = np.arange(len(shot.s))[free] > acts  # on its way to whatever road comes next
         # Who brakes into a bend is midway between two nodes faster than the second of them alone allows there.
         s, v, d_s, d_v = (0.5 * (each[1:] + each[:-1]) for each in (shot.s, shot.v, shot.d_s, shot.d_v))
-        most, slope = next(caps.at(s))
+        most, slope = caps.at(s, caps.most)
         bends = most < caps.most.max()
         self.bounds.add_all((v - most)[bends], (d_v - slope[:, None] * d_s)[bends], FIRM * wanted.price)
         s, v, d_s, d_v = (each[free] for each in (shot.s, shot.v, shot.d_s, shot.d_v))
-        (most, slope), (comfortable, other), _, (natural, third) = caps.at(s)
+        most, slope = caps.at(s, caps.most)
         self.bounds.add_all(-v, -d_v, FIRM * wanted.price)
         # Its last knot is on its road, unless the program asks for one at its end.
         end_m = self.asked.scene.routes[self.hero.id].landmarks["route_end"] - VEHICLE_LENGTH_M
         s_m, _, d_s_m, _ = shot.at_node(shot.first_node[-2])
         self.bounds.add(s_m - end_m, d_s_m, wanted.price / _TIGHT_LENGTH, wanted.out_of_way_most)
         self.bounds.add_all(v - most, d_v - slope[:, None] * d_s, FIRM * wanted.price)
-        self.costs.beyond(v - comfortable, d_v - other[:, None] * d_s, wanted.lateral_weight)
-        natural, third = np.where(onto, limits.natural_speed_mps, natural), np.where(onto, 0.0, third)
-        self.costs.beyond(v - natural, d_v - third[:, None] * d_s, wanted.over_limit_weight)
+        comfortable, slope = caps.at(s, caps.comfortable)
+        self.costs.beyond(v - comfortable, d_v - slope[:, None] * d_s, wanted.lateral_weight)
+        natural, slope = caps.at(s, caps.natural_before)
+        natural, slope = np.where(onto, limits.natural_speed_mps, natural), np.where(onto, 0.0, slope)
+        self.costs.beyond(v - natural, d_v - slope[:, None] * d_s, wanted.over_limit_weight)
 
     # -- manner -------------------------------------------------------------------------------------------------------
     def _pieces(self) -> None:
@@ -221,7 +223,8 @@ class HeroRows:
         node = shot.first_node[number]
         _, v, _, d_v = shot.at_node(node)
         if node and PieceKind.STOP not in (begins.kind, shot.legs[number - 1].kind):
-            *_, (natural, slope) = self.asked.caps[self.hero.id].at(shot.s[node : node + 1])
+            caps = self.asked.caps[self.hero.id]
+            natural, slope = caps.at(shot.s[node : node + 1], caps.natural_before)
             natural, slope = wanted.natural_share * natural[0], wanted.natural_share * slope[0]
             self.costs.add(v - natural, d_v - slope * shot.d_s[node], wanted.trigger_speed_weight)
             self.bounds.add(wanted.slowest_mps - v, -d_v, wanted.slowest_price)
@@ -278,11 +281,13 @@ class HeroRows:
         run_up_m, d_run_up = v_there**2 / (2.0 * wanted.sets_off_mpss), v_there / wanted.sets_off_mpss * d_v_there
         first = 1 if hero in self.now.heroes else 0
         s_m, v, d_s, d_v = (each[first : last + 1] for each in (shot.s, shot.v, shot.d_s, shot.d_v))
-        # Who is to be ahead of the ego behind that zone is through it before: an ego that lets it pass would wait.
+        # Who is to be ahead of the ego beyond that zone drives through it first: before an ego that gives way to it, a
+        # hero that waited there would wait for ever.
         through = zone_m is not None and place_m > zone_m and self.now.lanes.apart.get(hero, (0.0,))[0] > 0.0
         if zone_m is not None and not through:
             self.bounds.add_all(s_m - zone_m, d_s, wanted.out_of_way_price, wanted.out_of_way_most)
-        _, _, (most, slope), _ = self.asked.caps[hero].at(s_m)
+        caps = self.asked.caps[hero]
+        most, slope = caps.at(s_m, caps.most_before)
         self.bounds.add_all(v - most, d_v - slope[:, None] * d_s, wanted.price / _TIGHT_SPEED)
         if hero in self.now.waits:
             waits = until_s - shot.time[first : last + 1] > v_there / wanted.sets_off_mpss + wanted.waits_s
