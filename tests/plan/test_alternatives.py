@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from situations import scene_of
 
-from scenewright.plan.alternatives import decided
+from scenewright.plan.alternatives import decided, planned_for
 from scenewright.program import expressions as ex
 from scenewright.program.evaluate import violation
 from scenewright.program.printer import print_expression
@@ -58,3 +58,13 @@ def test_all_other_constraints_stay_as_they_are() -> None:
     before, after = ({c.id: c.formula for c in each.program.constraints} for each in (scene, decided(scene, witness)))
     assert [name for name, formula in before.items() if formula != after[name]] == ["tested"]
     assert not any(isinstance(node, ex.Logic) for node in ex.walk(after["tested"]))
+
+
+def test_who_has_to_be_beside_the_ego_is_not_done_before_that_is_over() -> None:
+    text = program("W", "t0, go, t1", "A0x(t1) == stop_line - 10\nalways[A0(t0), A0(t1)] (gap(A1, A0) <= 20)")
+    scene = scene_of(text)
+    *same, last = planned_for(scene, None).program.constraints
+    assert tuple(same) == scene.program.constraints
+    assert print_expression(last.formula) == "A1(t1) >= A0(t1)"
+    with_trigger = scene_of(text + "A0(t1) == A1(t1)\n")
+    assert planned_for(with_trigger, None) == with_trigger

@@ -154,7 +154,7 @@ def test_caps_tell_how_they_change() -> None:
     caps = asked_for("A1v(t1) >= 2").caps[HERO]
     steep = 0
     for s_m in np.arange(1.0, caps.places[-1] - 1.0, 0.5):
-        for speeds in (caps.most, caps.comfortable, caps.most_before, caps.natural_before):
+        for speeds in (caps.most, caps.comfortable, *caps.on_the_way_to(s_m)):
             before, (here, slope), after = (caps.at(s_m + by, speeds) for by in (-0.5, 0.0, 0.5))
             assert slope == pytest.approx(after[0] - before[0], abs=1e-9)
             steep += abs(slope) > 0.5
@@ -187,3 +187,49 @@ def test_only_what_the_ego_decides_alone_is_a_matter_of_forecasts(line: str, ord
     asked = asked_for(line)
     rows = rows_at(asked, {number: 1.0 + k for k, number in enumerate(asked.times) if number is not None})
     assert any(row.order for row in rows) is ordered
+
+
+@pytest.mark.parametrize(
+    ("line", "looked_at"),
+    [
+        ("always[A0(t0), A0(t1)] (gap(A0, A1) >= 15)", {EGO, HERO}),
+        ("never[A0(t0), A1(t2)] (A1x >= A1.route_end - 20 and A0v <= 2)", {EGO, HERO}),
+        ("always[A0(t0), A0(t1)] (tta(A1, route_end) >= 3)", {HERO}),
+        ("always[A0(t0), A1(t2)] (A1v <= 9)", set()),  # a law of motion says it all
+        ("eventually[A0(t0), A0(t1)] (gap(A0, A1) >= 35)", set()),
+        ("always[A0(t0), 9 / A0v(t1)] (gap(A0, A1) >= 15)", set()),  # no plan is asked for it, it is refused by name
+    ],
+)
+def test_what_has_to_last_of_places_is_looked_at_between_moments(line: str, looked_at: set[int]) -> None:
+    asked = asked_for(line, "W", LANE)
+    assert {actor for actor, instant in asked.events.states if instant in asked.looks} == looked_at
+    assert bool(asked.looks) is bool(looked_at)
+
+
+@pytest.mark.parametrize("gap_m", [10.0, 16.0])
+def test_within_its_stretch_of_time_what_has_to_last_is_asked_at_a_look(gap_m: float) -> None:
+    asked = asked_for("always[A0(t0), A0(t1)] (gap(A0, A1) >= 15)", "W", LANE)
+    look, trigger = asked.looks[3], asked.trigger(HERO)
+    place, ego = (number_of(asked.events.states[actor, look].place) for actor in (HERO, EGO))
+    then, ends = asked.times[look], asked.times[trigger or 0]
+    assert None not in (place, ego, then, ends)
+    at = {place: 100.0 + gap_m, ego: 100.0, ends: 6.0}
+    within, after = (
+        [row for row in rows_at(asked, at | {then: time_s}) if row.slope[place] and row.slope[ego]]  # type: ignore
+        for time_s in (4.0, 7.0)
+    )
+    (row,) = within
+    assert (row.level > 0.0) is (gap_m < 15.0)
+    assert row.spare > 0.0, "a distance that is kept is no matter of rounding"
+    assert not after
+
+
+@pytest.mark.parametrize(("bound", "drives"), [("<= 2", True), (">= 0.8", False), ("== 1", True)])
+def test_who_is_to_be_there_soon_enough_drives(bound: str, drives: bool) -> None:
+    """Standing, one is as long from any place as one likes: longer than at most 2 s, and never shorter than 0.8 s."""
+    asked = asked_for(f"headway(A1, A0, t1) {bound}", "W", LANE)
+    (place, speed), (ego, _) = state(asked, HERO, "t1"), state(asked, EGO, "t1")
+    rows = rows_at(asked, {place: 100.0, ego: 104.6, speed: 0.1})
+    slow = [row for row in rows if np.flatnonzero(row.slope).tolist() == [speed] and row.slope[speed] < 0.0]
+    short = (asked.wanted.moves_mps - 0.1) / TIGHT["speed"]
+    assert any(row.level == pytest.approx(short) for row in slow) is drives

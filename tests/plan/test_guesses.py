@@ -10,6 +10,7 @@ from scenewright.motion.profile import Profile, chain
 from scenewright.plan.guesses import even_motions, meet_later
 from scenewright.program.structure import read_structure
 from scenewright.program.types import EGO
+from scenewright.solve.proofs.witness import Witness
 from stories import program
 
 JOINT = program(
@@ -28,7 +29,7 @@ def test_each_comes_evenly_to_where_its_trigger_wants_it(program: str) -> None:
     planner = planner_of(scene_of(PROGRAMS[program](4)))
     ego = Profile(chain(0.0, 20.0, 12.0, [(60.0, 0.0, 0)]))
     for pace in (0.25, 0.8):
-        found, told = even_motions(planner._asked, planner._times, ego, 0.0, pace)
+        found, told = even_motions(planner._asked, planner._times, ego, None, 0.0, pace)
         assert told
         motions = {**found, EGO: ego}
         for hero in planner.scene.program.heroes:
@@ -46,7 +47,7 @@ def test_each_comes_evenly_to_where_its_trigger_wants_it(program: str) -> None:
 def test_who_decides_too_when_its_trigger_comes_is_guessed_at_the_time_that_is_given() -> None:
     planner = planner_of(scene_of(JOINT))
     ego = Profile(chain(0.0, 20.0, 12.0, [(60.0, 0.0, 0)]))
-    found, told = even_motions(planner._asked, planner._times, ego, 3.5, 0.5)
+    found, told = even_motions(planner._asked, planner._times, ego, None, 3.5, 0.5)
     assert not told
     assert found[1].state(3.5)[0] + planner.scene.offset_m(EGO, 1) - ego.state(3.5)[0] == pytest.approx(20.0)
 
@@ -62,3 +63,13 @@ def test_two_that_are_at_places_at_one_moment_after_their_triggers_meet_later() 
         PROGRAMS["crossing"](2) + "A1(t2) == A2(t2)\nA1x(t2) == stop_line\nA2x(t2) == stop_line\n"
     ).program
     assert meet_later(program, read_structure(program))
+
+
+def test_where_no_condition_tells_a_place_it_is_as_far_from_the_ego_as_in_a_witness() -> None:
+    text = program("W", "t0, go, t1", "A0x(t1) == stop_line - 10\nalways[A0(t0), A0(t1)] (gap(A1, A0) <= 20)")
+    planner = planner_of(scene_of(text))
+    ego = Profile(chain(0.0, 60.0, 12.0, [(60.0, 0.0, 0)]))
+    moves = {EGO: Profile(chain(0.0, 100.0, 9.0, [(9.0, 0.0, 0)])), 1: Profile(chain(0.0, 83.0, 9.0, [(9.0, 0.0, 0)]))}
+    found, told = even_motions(planner._asked, planner._times, ego, Witness(moves, {}, {}, 9.0), 0.0, 0.5)
+    assert not told
+    assert found[1].state(0.0)[0] == pytest.approx(60.0 - 17.0)

@@ -406,3 +406,66 @@ def test_who_ends_standing_stands_though_one_behind_it_is_to_pass() -> None:
     planner.begin((0.0, 150.0, 13.9, 0.0))
     motion = planner.plan.profiles[1]
     assert motion.state(motion.knot_times_s["t2"] + 0.5)[1] == pytest.approx(0.0, abs=0.02)
+
+
+@pytest.mark.parametrize(
+    ("sides", "place", "least", "most", "ego"),
+    [
+        ("A0, A1", "stop_line - 30", "20", "30", "staller"),
+        ("A0, A1", "stop_line - 30", "20", "30", "stop-and-go"),
+        ("A1, A0", "stop_line - 20", "10", "18", "idm"),
+    ],
+)
+def test_a_distance_that_is_to_be_kept_is_kept_at_all_moments(
+    sides: str, place: str, least: str, most: str, ego: str
+) -> None:
+    """Whatever the ego does meanwhile, and the judge looks at all of it: a plan at more than how it begins and ends."""
+    kept = f"always[A0(t0), A0(t1)] (gap({sides}) >= {least} and gap({sides}) <= {most})"
+    rest = f"A0(t1) == A1(t1)\nA0x(t1) == {place}\nA1v(t2) == 3\n{kept}"
+    assert orchestrate(Request(program("W", "t0, go, t1, dec, t2", rest), ego=ego, takes=1)).status == "success"
+
+
+@pytest.mark.parametrize("rate", ["A1a(dec) <= -4", "always[A1(t1), A1(t2)] (A1a <= -4)"])
+def test_a_sign_beyond_its_trigger_does_not_slow_down_who_is_to_brake_hard(rate: str) -> None:
+    """It brakes from 46 km/h 25 m before the conflict point: the driveway's 20 km/h begin only behind that place."""
+    places = "A0x(t1) == conflict_point - 30\nA1x(t1) == conflict_point - 25\nA1x(t2) == conflict_point - 5\n"
+    text = program("E, N", "t0, go, t1, dec, t2", f"A0(t1) == A1(t1)\n{places}A1v(t2) == 0\n{rate}")
+    assert orchestrate(Request(text, ego="constant", takes=1)).status == "success"
+
+
+BRAKES = "A0(t1) == A1(t1)\ngap(A0, A1, t1) == 40\n"
+FOLLOWS = "A0(t1) == A1(t1)\ngap(A1, A0, t1) == 30\nA0v(t1) >= 5\nheadway(A1, A0, t2) == 1\nA1(t3) - A1(t2) == 6\n"
+KEEPS = "(headway(A1, A0) >= 0.6 and headway(A1, A0) <= 1.6)"
+NEAR = "A0(t2) == A1(t3)\ngap(A0, A1, A0(t2)) == 18\nA1v(t4) == 11"
+
+
+@pytest.mark.parametrize(
+    ("sketch", "rest", "ego"),
+    [
+        ("t0, go, t1, dec, t2, go, t3, acc, t4", f"{BRAKES}A1v(t2) == 6\n{NEAR}", "stop-and-go"),
+        (
+            "t0, go, t1, dec, t2, acc, t3",
+            f"{BRAKES}A0(t2) == A1(t2)\ngap(A0, A1, A0(t2)) == 22\nA1v(t3) == 11",
+            "noisy",
+        ),
+        ("t0, go, t1, acc, t2, go, t3", f"{FOLLOWS}always[A1(t2), A1(t3)] {KEEPS}", "stop-and-go"),
+        ("t0, go, t1", "A0x(t1) == stop_line - 10\nalways[A0(t0), A0(t1)] (headway(A1, A0) <= 2)", "idm"),
+    ],
+)
+def test_what_a_hero_is_to_do_with_the_ego_after_its_trigger_or_without_one_is_done(
+    sketch: str, rest: str, ego: str
+) -> None:
+    """A second moment of both, an end of braking that the ego tells, and keeping a distance all along."""
+    assert orchestrate(Request(program("W", sketch, rest), ego=ego, takes=1)).status == "success"
+
+
+def test_a_second_moment_that_comes_too_soon_is_missed_by_one_who_drives_as_cars_do() -> None:
+    """An ego that is much too fast is there before the hero can have done what was to be done before."""
+    first = "A0(t1) == A1(t1)\nA0x(t1) == conflict_point - 80\nA1x(t1) == conflict_point - 60\nA1v(t2) == 6\n"
+    second = "A0(t2) == A1(t3)\nA0x(t2) == conflict_point - 35\nA1x(t3) == conflict_point - 25\nA1v(t4) == 0"
+    text = program("E, N", "t0, go, t1, dec, t2, go, t3, dec, t4", first + second)
+    result = orchestrate(Request(text, ego="speeder", takes=1))
+    assert result.verdict is not None
+    moves = [each for each in result.verdict.conditions if each.id.startswith("kin_hero")]
+    assert moves
+    assert all(each.holds_at(TIGHT) for each in moves)

@@ -45,7 +45,8 @@ def test_states_change_with_the_unknowns_as_their_slopes_say(name: str, at_s: fl
 def test_rows_change_as_their_slopes_say(name: str, at_s: float, monkeypatch: pytest.MonkeyPatch) -> None:
     """Where a row has a kink, or a weight that depends on a time or a rate, nothing is told of its slope."""
     problem = problem_of(PROGRAMS[name], at_s)
-    even = Caps(np.array([0.0, 1000.0]), np.array([22.0, 7.0]), np.array([14.0, 2.0]), *[np.array([9.0, 5.0])] * 2)
+    places, most, comfortable, signed = map(np.array, ([0.0, 1000.0], [22.0, 7.0], [14.0, 2.0], [9.0, 5.0]))
+    even = Caps(places, most, comfortable, (0.0,), ((signed, signed),))
     monkeypatch.setattr(problem.asked, "caps", dict.fromkeys(problem.asked.caps, even))
     z, times = near(problem, 1), times_of(problem)
     here, compared = problem.rows(z)[:2], 0

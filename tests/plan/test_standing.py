@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 from many_heroes import PROGRAMS
 from situations import HERO, driven_on, planner_of, scene_of
@@ -53,6 +54,7 @@ def test_triggers_of_several_move_on_by_half_a_second_a_tick_until_they_come_soo
         assert all(by_s <= 0.5 + 1e-6 for by_s, left_s in moved if left_s > 2.0)
 
 
+KEPT = "A0(t1) == A1(t1)\nA0x(t1) == stop_line - 30\nA1v(t2) == 3\nalways[A0(t0), A0(t1)] (gap(A0, A1) >= 20)\n"
 SYNC = "A0(t1) == A1(t1)\nA0x(t1) == conflict_point - 30\nA1x(t1) == conflict_point - 20\nA1v(t2) == 0\nA1v(t4) == 4\n"
 
 
@@ -64,3 +66,38 @@ def test_how_long_it_is_to_stand_later_is_no_reason_to_come_slowly(stands_s: flo
     planner.begin((0.0, 175.0, 13.9, 0.0))
     motion = planner.plan.profiles[HERO]
     assert motion.state(motion.knot_times_s["t1"])[1] > 6.0
+
+
+def test_looks_at_what_has_to_last_are_from_now_to_where_it_ends() -> None:
+    planner = planner_of(scene_of(program("W", "t0, go, t1, dec, t2", KEPT)))
+    planner.begin((0.0, 100.0, 9.0, 0.0))
+    for now_s in (0.0, 0.4):
+        if now_s:
+            driven_on(planner, 0.0, now_s)
+            planner.tick(now_s)
+        looks_s = [planner._moments_s[look] for look in planner._asked.looks]
+        assert looks_s[-1] == pytest.approx(planner.plan.profiles[HERO].knot_times_s["t1"], abs=0.05)
+        assert np.diff([now_s, *looks_s]) == pytest.approx((looks_s[-1] - now_s) / len(looks_s))
+
+
+ORDERS = {
+    "t0, go, t1, dec, t2, go, t3, acc, t4": {"A0(t2) == A1(t3)\nA0x(t2) == stop_line - 10": [2]},
+    "t0, go, t1, dec, t2, acc, t3": {"A0(t2) == A1(t2)\nA0x(t2) == stop_line - 10": [1], "A1v(t3) == 9": []},
+    "t0, go, t1, acc, t2, go, t3": {
+        "always[A1(t2), A1(t3)] (headway(A1, A0) <= 2)": [2],
+        "always[A1(t1), A1(t2)] (gap(A1, A0) >= 5)": [1],
+        "always[A0(t0), A1(t3)] (gap(A1, A0) >= 5)": [],
+        "gap(A1, A0, A1(t3)) == 12": [2],
+        "gap(A0, A1, A1(t3)) == -12": [2],
+    },
+    "t0, go, t1, dec, t2, stop, t3, acc, t4": {"A1(t3) > A0(t2)": [2], "A1v(t4) == 5": []},
+}
+TABLE = [(sketch, line, pieces) for sketch, lines in ORDERS.items() for line, pieces in lines.items()]
+
+
+@pytest.mark.parametrize(("sketch", "line", "pieces"), TABLE)
+def test_after_its_trigger_a_hero_answers_the_ego_in_what_it_is_to_do_with_it(
+    sketch: str, line: str, pieces: list[int]
+) -> None:
+    planner = planner_of(scene_of(program("W", sketch, f"A0(t1) == A1(t1)\nA0x(t1) == stop_line - 60\n{line}")))
+    assert planner._reactive == {HERO: pieces}

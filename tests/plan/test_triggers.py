@@ -8,7 +8,8 @@ from hypothesis import strategies as st
 from many_heroes import PROGRAMS
 
 from scenewright.motion.profile import Profile, chain
-from scenewright.plan.triggers import SHORTEST_LEAD_S, TriggerTimes, adapts_until
+from scenewright.plan.triggers import SHORTEST_LEAD_S, TriggerTimes, adapts_until, beside_others
+from scenewright.program.printer import print_expression
 from scenewright.program.structure import read_structure
 from scenewright.program.text import parse_program
 from scenewright.program.types import EGO, Actor
@@ -140,3 +141,16 @@ def test_who_hangs_on_a_hero_that_adapts_adapts_until_then() -> None:
     )
     program = parse_program(text + "A4v(t1) == 5\n")
     assert adapts_until(program, read_structure(program)) == {1: "t1", 2: "t1", 3: "t1"}
+
+
+@pytest.mark.parametrize(("sync", "until"), [("", {1: "t1"}), ("A0(t1) == A1(t1)\n", {1: "t1"})])
+@pytest.mark.parametrize(("lasting", "counts"), [("gap(A1, A0) <= 20", True), ("A1v <= 9", False)])
+def test_who_has_to_be_beside_others_adapts_until_its_last_knot(
+    sync: str, until: dict[int, str], lasting: str, counts: bool
+) -> None:
+    sketches = "Actor 0:\n- W\n- [t0, go, t1, go, t2]\nActor 1:\n- W\n- [t0, go, t1]\n"
+    program = parse_program(f"{sketches}Constraints:\n{sync}always[A0(t0), A0(t1)] ({lasting})\n")
+    structure = read_structure(program)
+    assert adapts_until(program, structure) == (until if counts or sync else {})
+    told = [(hero, print_expression(end)) for hero, end in beside_others(program, structure)]
+    assert told == ([(1, "A0(t1)")] if counts and not sync else [])

@@ -10,7 +10,21 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from situations import HERO, PROGRAMS, every_problem, near, problem_of
 
-from stories import STORIES
+from stories import STORIES, program
+
+TWO_MOMENTS = program(
+    "W",
+    "t0, go, t1, dec, t2, go, t3, acc, t4",
+    """
+A0(t1) == A1(t1)
+A0x(t1) == stop_line - 50
+A1x(t1) == stop_line - 20
+A1v(t2) == 6
+A0(t2) == A1(t3)
+A0x(t2) == stop_line - 30
+A1v(t4) == 9
+""",
+)
 
 
 @every_problem
@@ -48,3 +62,14 @@ def test_who_drives_already_begins_as_it_drives() -> None:
         assert (s_m, v) == pytest.approx(problem.now.heroes[HERO].motion.state(1.2)[:2])
         assert not np.any(d_s)
         assert not np.any(d_v)
+
+
+@given(seed=st.integers(0, 9999))
+@settings(max_examples=20)
+def test_what_comes_between_two_moments_that_are_known_stays_between_them(seed: int) -> None:
+    """A later moment of the ego's is known as its trigger is: what was to be done before it is done by then."""
+    problem = problem_of(TWO_MOMENTS)
+    moments = [problem.moments[problem.asked.knot(HERO, name)] for name in ("t1", "t2", "t3", "t4")]
+    assert [moment.unknown is None for moment in moments] == [True, False, True, False]
+    z = problem.ordered(near(problem, seed, 10.0))
+    assert all(after.value(z) >= before.value(z) + 0.049 for before, after in pairwise(moments))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from scenarios import EXAMPLE_TABLE, YIELDS_THEN_GOES, Example, example
-from scenewright.program.structure import Role, placed_at, read_structure, stands_at_end
+from scenewright.program.structure import Role, placed_at, read_structure, stands_at_end, with_ego
 from scenewright.program.text import parse_program
 
 THREE = """
@@ -112,3 +112,22 @@ def test_who_is_told_where_to_be_at_an_instant(line: str, placed: set[int]) -> N
 def test_who_stands_at_the_end(sketch: str, line: str, stands: bool) -> None:
     text = f"Actor 0 (ego):\n- W\n- [t0, go, t1]\n\nActor 1 (hero):\n- E, N\n- {sketch}\n\nConstraints:\n{line}\n"
     assert stands_at_end(parse_program(text), 1) is stands
+
+
+@pytest.mark.parametrize(
+    ("line", "knot", "moment"),
+    [
+        ("A0(t2) == A1(t3)", "t3", {(0, "t2"), (1, "t3")}),
+        ("gap(A0, A1, A1(t3)) == 12", "t3", {(1, "t3")}),
+        ("headway(A1, A0, t2) == 1", "t2", {(1, "t2")}),
+        ("gap(A1, A0, A1(t3)) == 12", "t3", {(1, "t3")}),
+        ("A1(t3) == 9", "t3", None),
+        ("A1(t3) > A0(t2)", "t3", None),
+    ],
+)
+def test_moments_with_the_ego_after_the_trigger(line: str, knot: str, moment: set[tuple[int, str]] | None) -> None:
+    sketches = "Actor 0:\n- W\n- [t0, go, t1, go, t2]\nActor 1:\n- W\n- [t0, go, t1, dec, t2, go, t3]\n"
+    program = parse_program(f"{sketches}Constraints:\nA0(t1) == A1(t1)\n{line}\n")
+    found = with_ego(program, read_structure(program).instants, 1, knot)
+    assert found == (None if moment is None else frozenset(moment))
+    assert read_structure(program).triggers == {1: frozenset({(0, "t1"), (1, "t1")})}

@@ -56,6 +56,7 @@ def test_signs_are_those_of_lanes_and_are_heeded_evenly() -> None:
     assert heeded[-1] == pytest.approx(told[-1])
     rates = np.diff(heeded**2) / (2.0 * 0.5)
     assert 0.5 < np.abs(rates).max() < 2.5
+    assert np.all(signs.up_to(1).evenly_mps(along) == told[0]), "nobody has come to the next one"
     there = np.array([signs.at_mps(s_m) for s_m in along])
     assert np.all(heeded <= there + 1e-9), "nobody is faster before the sign"
 

@@ -1,19 +1,35 @@
 """What has to hold all through a stretch of time is decided before it begins: of alternatives, that which can hold.
 
 What enters: a scene, and a motion that shows that it can happen. What leaves: the scene with such alternatives decided
-as they are in that motion, for a planner. Alternatives that speak of moments alone stay open until these come.
+as they are in that motion, for a planner. Alternatives that speak of moments alone stay open until these come. Whoever
+has no trigger, and all the while has to be somewhere beside others, is not done before that is over.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
 
+from scenewright.plan.triggers import beside_others
 from scenewright.program import expressions as ex
 from scenewright.program.evaluate import violation
+from scenewright.program.structure import read_structure
+from scenewright.program.types import Constraint
 from scenewright.roads.grounding import Scene
 from scenewright.solve.plan import PlanWorld
 from scenewright.solve.proofs.forms import asserted
 from scenewright.solve.proofs.witness import Witness
+
+
+def planned_for(scene: Scene, witness: Witness | None) -> Scene:
+    """Return the scene as heroes are planned in it."""
+    scene, structure = scene if witness is None else decided(scene, witness), read_structure(scene.program)
+    over = [
+        Constraint(
+            f"until_{number}", ex.Compare(">=", ex.Elapsed(hero, scene.program.actor(hero).sketch.knots[-1]), end)
+        )
+        for number, (hero, end) in enumerate(beside_others(scene.program, structure))
+    ]
+    return replace(scene, program=replace(scene.program, constraints=(*scene.program.constraints, *over)))
 
 
 def decided(scene: Scene, witness: Witness) -> Scene:

@@ -6,8 +6,11 @@ alternatives the one that is nearest to holding.
 
 from __future__ import annotations
 
+from bisect import bisect_right
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,9 +25,10 @@ from scenewright.roads.routes import Route
 from scenewright.solve.limits import Limits, Signs
 from scenewright.solve.proofs.compiled import Compiled
 from scenewright.solve.proofs.events import EgoBounds, Events
+from scenewright.solve.proofs.forms import free_actors, lasting_places
 from scenewright.solve.proofs.lowering import Lowering
 from scenewright.solve.proofs.order import least_differences
-from scenewright.solve.proofs.polynomials import Atom, Polynomial
+from scenewright.solve.proofs.polynomials import Atom, Polynomial, TooHigh
 
 Array = NDArray[np.float64]
 
@@ -32,6 +36,7 @@ TIGHT = {"time": 0.1, "place": 0.5, "speed": 0.25, "rate": 0.25, "other": 1.0}
 _SPARE = 0.5  # of a tight tolerance; chosen
 _AROUND_M, _STEP_M = 2.0, 0.5  # between two nodes of a plan a car goes a few metres
 _OF_TOP, _OF_LATERAL = 0.99, 0.97  # between two nodes a speed may be a little higher than at both
+_LOOKS = 8  # at so many moments of what is left of it, something that has to last is looked at; chosen
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +44,7 @@ class Row:
     """One comparison at some values: its level in tight tolerances (at most zero, or zero), and its slopes.
 
     `order` says that it compares nothing but times, one the ego's alone, of which one is to be the earlier. By `spare`
-    it is to be more than met: which of two heroes comes first is no matter of rounding.
+    it is to be more than met: which of two heroes comes first is no matter of rounding, nor is a distance that is kept.
     """
 
     level: float
@@ -58,6 +63,7 @@ class Asked:
         self.wanted = preferences_of(scene.program.manner)
         self.events = Events(scene, limits, EgoBounds())
         self.lowering = Lowering(self.events)
+        self.looks, self.looked_until = self._make_looks()
         at_triggers = {key for instant in structure.triggers.values() for key in instant}
         constraints = tuple(  # what is asked of the ego alone is nobody's to plan, unless it tells when a trigger comes
             c
@@ -75,7 +81,10 @@ class Asked:
         times_of = [self._times_of(atom) for atom in atoms]
         self._orders = [EGO in whose for whose in times_of]
         alone = [len(whose) == len(atom.left.terms) == 2 for whose, atom in zip(times_of, atoms, strict=True)]
-        self._spares = [_SPARE * (two and EGO not in whose) for two, whose in zip(alone, times_of, strict=True)]
+        looked_at = {number_of(state.place) for (_, at), state in self.events.states.items() if at in self.looks}
+        of_looks = [any(not looked_at.isdisjoint(key) for key in atom.left.terms) for atom in atoms]
+        heroes_alone = [two and EGO not in whose for two, whose in zip(alone, times_of, strict=True)]
+        self._spares = [_SPARE * (early or kept) for early, kept in zip(heroes_alone, of_looks, strict=True)]
         self._quotients = list(self._quotients_of(atoms))
         self.caps = {
             hero.id: caps_of(scene.routes[hero.id], scene.road_map, limits[hero.id], self.wanted.lateral_mpss)
@@ -99,6 +108,18 @@ class Asked:
     def size(self) -> int:
         """How many unknowns there are."""
         return len(self.events.unknowns)
+
+    def _make_looks(self) -> tuple[list[int], set[int]]:
+        """Return moments between all others, and up to which ones something is asked for some time of places."""
+        actors, ends = set[int](), set[int]()
+        for node in lasting_places(self.scene.program):
+            with suppress(TooHigh):  # told by the lowering
+                ends.add(self.lowering.stretch_of(node)[1])
+                actors |= free_actors(node.body)
+        looks = [self.events.instant(f"look{number}") for number in range(_LOOKS if ends else 0)]
+        for actor, look in product(sorted(actors), looks):
+            self.events.state(actor, look)
+        return looks, ends
 
     def knot(self, actor: int, name: str) -> int:
         """Return the instant of a knot."""
@@ -135,7 +156,8 @@ class Asked:
             order, spare = (self._orders[k], self._spares[k]) if not equal[k] else (False, 0.0)
             yield Row(float(levels[k]), changes[k], bool(equal[k]), order, spare)
         for k, _, speed in self._quotients:
-            if k in chosen and equal[k] and np.any(slopes[speed]):  # who stands where it is to be arrives at no time
+            # Who stands where it is to be arrives at no time; nor is it there soon enough.
+            if k in chosen and (equal[k] or gradients[k, speed] < 0.0) and np.any(slopes[speed]):
                 short_mps = self.wanted.moves_mps - float(point[speed])
                 yield Row(short_mps / TIGHT["speed"], -slopes[speed] / TIGHT["speed"], equal=False, order=False)
 
@@ -146,7 +168,7 @@ class Asked:
         """
         keys = [key for key in atom.left.terms if key]
         instants = {number: instant for instant, number in enumerate(self.times) if number is not None}
-        if any(len(key) != 1 or instants.get(key[0]) in (None, *self.events.defined) for key in keys):
+        if any(len(key) != 1 or instants.get(key[0]) in (None, *self.events.defined, *self.looks) for key in keys):
             return set()
         return {max((a for a, k in self.events.states if k == instants[key[0]]), default=-1) for key in keys}
 
@@ -177,14 +199,18 @@ def number_of(value: Polynomial) -> int | None:
 class Caps:
     """How fast a route may be driven (m/s) at places (m): at most, and in comfort in its bends.
 
-    On the way to a trigger also at most, and as is natural, by its signs.
+    By its signs also at most, and as is natural, on the way to each lane, which begin somewhere (m).
     """
 
     places: Array
     most: Array
     comfortable: Array
-    most_before: Array
-    natural_before: Array
+    begin_m: tuple[float, ...]
+    signed: tuple[tuple[Array, Array], ...]
+
+    def on_the_way_to(self, place_m: float) -> tuple[Array, Array]:
+        """Return how fast it may be at most by signs, and as is natural, on the way to a place."""
+        return self.signed[max(bisect_right(self.begin_m, place_m) - 1, 0)]
 
     def at(self, s_m: Array, speeds_mps: Array) -> tuple[Array, Array]:
         """Return one of them at places, and how it changes from there (1/s)."""
@@ -203,4 +229,6 @@ def caps_of(route: Route, road_map: RoadMap, limits: Limits, comfortable_mpss: f
     most, comfortable = (
         np.minimum(np.sqrt(a / sharpest), top) for a in (_OF_LATERAL * limits.lateral_max_mpss, comfortable_mpss)
     )
-    return Caps(places, most, comfortable, *limits.before_trigger_mps(Signs.of(route, road_map).evenly_mps(places)))
+    signs = Signs.of(route, road_map)
+    posted = (signs.up_to(count).evenly_mps(places) for count in range(1, len(signs.starts_m) + 1))
+    return Caps(places, most, comfortable, signs.starts_m, tuple(map(limits.before_trigger_mps, posted)))

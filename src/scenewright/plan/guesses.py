@@ -13,15 +13,19 @@ from scenewright.plan.asked import Asked
 from scenewright.plan.triggers import TriggerTimes
 from scenewright.program.structure import Structure, placed_at
 from scenewright.program.types import EGO, Actor, Program
+from scenewright.roads.conflicts import shared_offset_m
+from scenewright.solve.proofs.witness import Witness
 
 
 def even_motions(
-    asked: Asked, times: TriggerTimes, prediction: Profile, joint_s: float, pace: float
+    asked: Asked, times: TriggerTimes, prediction: Profile, witness: Witness | None, joint_s: float, pace: float
 ) -> tuple[dict[int, Profile], bool]:
     """Return a motion for each hero, and whether a condition tells the place of each: so that they tell who goes first.
 
     Parameters
     ----------
+    witness
+        How it can happen, if that is known: where no condition tells a place, it is so far from the ego as there.
     joint_s
         When a trigger comes of which both decide (s).
     pace
@@ -44,7 +48,12 @@ def even_motions(
         states = {EGO: prediction.state(at_s)[:2]} | {other: each.state(at_s)[:2] for other, each in found.items()}
         there_m = _place_m(asked, times, hero, states, speed_mps)
         told &= there_m is not None
-        if there_m is None:
+        if there_m is None and witness is not None:
+            own, ego = (witness.profiles[actor] for actor in (hero.id, EGO))
+            then_s = own.knot_times_s[asked.adapts_until[hero.id]] if instant is not None and at_s > 0.0 else 0.0
+            beside = shared_offset_m(asked.scene.routes[EGO], asked.scene.routes[hero.id]) is not None
+            there_m = own.state(then_s)[0] + (states[EGO][0] - ego.state(then_s)[0] if beside else 0.0)
+        elif there_m is None:
             there_m = 0.5 * asked.scene.routes[hero.id].landmarks["route_end"]
         moves = [(at_s, 0.0, 0)]
         found[hero.id] = Profile(chain(0.0, there_m - speed_mps * at_s, speed_mps, moves), {hero.sketch.knots[0]: 0.0})

@@ -107,7 +107,7 @@ class Planner(Standing):
         self.ego_knots_s = {self.scene.program.ego.sketch.knots[0]: 0.0}
         prediction = self._ego.predictor.predict([ego])
         joint = any(h.id in self.structure.triggers and not self._times.ego_decides(h) for h in self._heroes)
-        even, tries = partial(even_motions, self._asked, self._times, prediction), list[_Found]()
+        even, tries = partial(even_motions, self._asked, self._times, prediction, self.witness), list[_Found]()
         meetings = meetings_of(self.scene)
         placed = bool(meetings) and not meet_later(self.scene.program, self.structure) and even(0.0, 1.0)[1]
         # Who comes slowly can still do either; where nothing tells when, a slow guess would just stay slow.

@@ -170,7 +170,7 @@ class HeroRows:
         self.bounds.add_all(v - most, d_v - slope[:, None] * d_s, FIRM * wanted.price)
         comfortable, slope = caps.at(s, caps.comfortable)
         self.costs.beyond(v - comfortable, d_v - slope[:, None] * d_s, wanted.lateral_weight)
-        natural, slope = caps.at(s, caps.natural_before)
+        natural, slope = caps.at(s, caps.on_the_way_to(shot.s[min(acts, len(shot.s) - 1)])[1])
         natural, slope = np.where(onto, limits.natural_speed_mps, natural), np.where(onto, 0.0, slope)
         self.costs.beyond(v - natural, d_v - slope[:, None] * d_s, wanted.over_limit_weight)
 
@@ -224,7 +224,7 @@ class HeroRows:
         _, v, _, d_v = shot.at_node(node)
         if node and PieceKind.STOP not in (begins.kind, shot.legs[number - 1].kind):
             caps = self.asked.caps[self.hero.id]
-            natural, slope = caps.at(shot.s[node : node + 1], caps.natural_before)
+            natural, slope = caps.at(shot.s[node : node + 1], caps.on_the_way_to(shot.s[node])[1])
             natural, slope = wanted.natural_share * natural[0], wanted.natural_share * slope[0]
             self.costs.add(v - natural, d_v - slope * shot.d_s[node], wanted.trigger_speed_weight)
             self.bounds.add(wanted.slowest_mps - v, -d_v, wanted.slowest_price)
@@ -287,7 +287,7 @@ class HeroRows:
         if zone_m is not None and not through:
             self.bounds.add_all(s_m - zone_m, d_s, wanted.out_of_way_price, wanted.out_of_way_most)
         caps = self.asked.caps[hero]
-        most, slope = caps.at(s_m, caps.most_before)
+        most, slope = caps.at(s_m, caps.on_the_way_to(place_m)[0])
         self.bounds.add_all(v - most, d_v - slope[:, None] * d_s, wanted.price / _TIGHT_SPEED)
         if hero in self.now.waits:
             waits = until_s - shot.time[first : last + 1] > v_there / wanted.sets_off_mpss + wanted.waits_s

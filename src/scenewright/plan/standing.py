@@ -6,8 +6,10 @@ but for later pieces that react to the ego. Nothing is planned here.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import InitVar, dataclass, field
+
+import numpy as np
 
 from scenewright.motion.profile import Profile, chain
 from scenewright.plan.asked import Asked
@@ -15,12 +17,16 @@ from scenewright.plan.foresight import Foresight
 from scenewright.plan.prediction import EgoSample, Predictor
 from scenewright.plan.situation import Drive, Situation
 from scenewright.plan.triggers import SHORTEST_LEAD_S, TriggerTimes
-from scenewright.program.structure import Role, Structure, knots_of
+from scenewright.plan.unknowns import LEAST_S
+from scenewright.program import expressions as ex
+from scenewright.program.structure import Role, Structure, knots_of, with_ego
 from scenewright.program.types import EGO, Actor, PieceKind
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import LinearCondition, linear_conditions
 from scenewright.solve.limits import Limits, Signs
 from scenewright.solve.plan import Plan
+from scenewright.solve.proofs.forms import free_actors, lasting_places
+from scenewright.solve.proofs.witness import Witness
 
 # By how much a trigger of several heroes moves in a tick at most (s), unless it is so far off and comes so soon that it
 # has to: then by so much (s) of what is missing, for each second that is left. Steps from far off are slow. Measured
@@ -41,6 +47,8 @@ class Standing:
         Foresees the ego where it follows nobody.
     conditions
         The scene's linear conditions.
+    witness
+        How it can happen, if that is known.
     plan
         The motion that is being carried out.
     ego_knots_s
@@ -52,6 +60,7 @@ class Standing:
     limits: Mapping[int, Limits]
     predictor: InitVar[Predictor]
     conditions: tuple[LinearCondition, ...]
+    witness: Witness | None = None
     plan: Plan = field(init=False)
     ego_knots_s: dict[str, float] = field(init=False, default_factory=dict)
     _asked: Asked = field(init=False)
@@ -59,10 +68,14 @@ class Standing:
     _moments_s: Mapping[int, float] = field(init=False, default_factory=dict)  # of the plan, by instant
     _others: Mapping[int, float] = field(init=False, default_factory=dict)  # its other unknowns, by number
     _ego: Foresight = field(init=False)
+    _reactive: dict[int, list[int]] = field(init=False, default_factory=dict)  # pieces after the trigger
     _joint_s: dict[int, float] = field(init=False, default_factory=dict)  # first planned, where both decide when
 
     def __post_init__(self, predictor: Predictor) -> None:
         self._asked = Asked(self.scene, self.structure, self.limits)
+        for hero, until in self._asked.adapts_until.items():
+            actor = self.scene.program.actor(hero)
+            self._reactive[hero] = [*self._reactive_pieces(actor, actor.sketch.knot_index(until))]
         self._times = TriggerTimes(self.scene, self.structure, self.conditions)
         signs = Signs.of(self.scene.routes[EGO], self.scene.road_map)
         told = linear_conditions(self.scene, self.structure, with_bounds=True)
@@ -96,6 +109,7 @@ class Standing:
         }
         knots = {self._asked.knot(hero, self._name(hero)): at_s for hero, at_s in triggers.items()}
         knots |= self._ego_knots(0.0, prediction, triggers, knots)
+        self._put_in_order(knots)
         expected: dict[int, float] = {}
         planned: dict[int, float] = {}
         for hero in self._heroes:
@@ -117,6 +131,7 @@ class Standing:
         for instant, at_s in self._moments_s.items():
             if instant not in knots:
                 expected.setdefault(instant, at_s)
+        knots |= self._looks(0.0, {**expected, **knots})
         return Situation(
             0.0,
             self._ego.states(prediction),
@@ -165,9 +180,11 @@ class Standing:
             for later in names[names.index(trigger) + 1 :]:  # what follows keeps its place in time after it
                 expected[self._asked.knot(hero.id, later)] += knots[instant] - before_s
         knots |= self._ego_knots(time_s, prediction, triggers, knots)
+        self._put_in_order(knots)
         for instant, at_s in self._moments_s.items():  # places that were passed, and what happened, are history too
             if instant not in knots and instant not in expected:
                 (knots if at_s <= time_s else expected)[instant] = at_s
+        knots |= self._looks(time_s, {**expected, **knots})
         situation = Situation(
             time_s,
             self._ego.states(prediction),
@@ -195,6 +212,14 @@ class Standing:
         found = here[0].first_time({EGO: prediction, hero.id: even}, time_s + SHORTEST_LEAD_S)
         return found if found is not None and found < planned_s else None
 
+    def _looks(self, time_s: float, moments_s: Mapping[int, float]) -> dict[int, float]:
+        """Return when to look at what has to last: evenly, from now to where the last of it ends."""
+        asked, last_s = self._asked, time_s
+        for instant in asked.looked_until:
+            constant = asked.events.times[instant].constant
+            last_s = max(last_s, moments_s.get(instant, time_s) if constant is None else float(constant))
+        return dict(zip(asked.looks, np.linspace(time_s, last_s, len(asked.looks) + 1)[1:].tolist(), strict=True))
+
     # -- what is known ------------------------------------------------------------------------------------------------
     @property
     def _heroes(self) -> Iterable[Actor]:
@@ -211,11 +236,20 @@ class Standing:
         instants = {self._asked.knot(EGO, name): at_s for name, at_s in found.items()}
         return {instant: at_s for instant, at_s in instants.items() if instant not in known}
 
+    def _put_in_order(self, knots: dict[int, float]) -> None:
+        """Put off what would come before a hero has done what is to be done before: it cannot act sooner."""
+        for hero in self._heroes:
+            soonest_s = 0.0
+            for instant in (self._asked.knot(hero.id, name) for name in hero.sketch.knots):
+                if instant in knots:
+                    knots[instant] = max(knots[instant], soonest_s)
+                    soonest_s = knots[instant] + LEAST_S
+
     def _open_piece(self, hero: Actor, time_s: float) -> int | None:
         """Return the piece from which on a hero is still solved for, or None once it only carries out.
 
-        Before its trigger (or what hangs on another's) that is the piece it is in. After it, pieces from the first
-        standing one on that a reactive constraint speaks of, up to the moment they have begun to move again.
+        Before its trigger (or what hangs on another's) that is the piece it is in. After it, that in which it answers
+        the ego.
         """
         times, sketch = self.plan.profiles[hero.id].knot_times_s, hero.sketch
         soon_s = time_s + SHORTEST_LEAD_S  # what comes sooner could only be put off
@@ -225,19 +259,21 @@ class Standing:
             return None
         if current < sketch.knot_index(trigger):
             return current
-        reactive = self._reactive_piece(hero, sketch.knot_index(trigger))
-        return reactive if reactive is not None and current <= reactive else None
+        return next((reactive for reactive in self._reactive[hero.id] if current <= reactive), None)
 
-    def _reactive_piece(self, hero: Actor, trigger: int) -> int | None:
-        """Return the standing piece after the trigger whose end a constraint with the ego depends on."""
-        knots = hero.sketch.knots
-        for piece in range(trigger + 1, len(hero.sketch.pieces)):
-            if hero.sketch.pieces[piece] is not PieceKind.STOP:
-                continue
+    def _reactive_pieces(self, hero: Actor, trigger: int) -> Iterator[int]:
+        """Yield the pieces after the trigger in which a hero answers the ego.
+
+        It stands until something that is compared with the ego's; or it drives on to a moment of the ego's, or has to
+        be somewhere beside it meanwhile.
+        """
+        knots, pieces, constraints = hero.sketch.knots, hero.sketch.pieces, self.scene.program.constraints
+        orders = [set(knots_of(each.formula)) for each in constraints if self.structure.roles[each.id] is Role.OUTCOME]
+        beside = [node.start for node in lasting_places(self.scene.program) if EGO in free_actors(node.body)]
+        for piece in range(trigger, len(pieces)):
             later = {(hero.id, name) for name in knots[piece + 1 :]}
-            for constraint in self.scene.program.constraints:
-                keys = set(knots_of(constraint.formula))
-                orders = self.structure.roles[constraint.id] is Role.OUTCOME
-                if orders and keys & later and any(actor == EGO for actor, _ in keys):
-                    return piece
-        return None
+            waits = any(keys & later and any(actor == EGO for actor, _ in keys) for keys in orders)
+            goes_on = ex.Elapsed(hero.id, knots[piece]) in beside
+            goes_on |= with_ego(self.scene.program, self.structure.instants, hero.id, knots[piece + 1]) is not None
+            if (pieces[piece] is PieceKind.STOP and waits) or goes_on:
+                yield piece

@@ -6,15 +6,17 @@ trigger that a hero decides too is for the planning problem itself.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 
 from scenewright.motion.profile import Profile
+from scenewright.program import expressions as ex
 from scenewright.program.structure import Structure, actors_of, knots_of
 from scenewright.program.types import EGO, Actor, Program
 from scenewright.roads.conflicts import shared_offset_m
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import TIGHT_LENGTH_M, LinearCondition, of_ego, tight_of
+from scenewright.solve.proofs.forms import free_actors, lasting_places
 
 # How soon a trigger may come (s): nobody can tell what begins sooner from what has begun.
 SHORTEST_LEAD_S = 0.02
@@ -133,9 +135,11 @@ class TriggerTimes:
 def adapts_until(program: Program, structure: Structure) -> dict[int, str]:
     """Return the knot up to which each hero adapts: its trigger, or the first that hangs on a hero that adapts.
 
-    So whoever brakes 1.5 s after another one began, which does so at a trigger, waits for that as well.
+    So whoever brakes 1.5 s after another one began, which does so at a trigger, waits for that as well. And who has to
+    be somewhere beside others all the while adapts up to its last one.
     """
     found = {hero: structure.trigger_knot(hero) or "" for hero in structure.triggers}
+    found |= {hero: program.actor(hero).sketch.knots[-1] for hero, _ in beside_others(program, structure)}
     while True:
         more: dict[int, str] = {}
         for formula in (constraint.formula for constraint in program.constraints):
@@ -147,6 +151,13 @@ def adapts_until(program: Program, structure: Structure) -> dict[int, str]:
         if not more:
             return found
         found |= more
+
+
+def beside_others(program: Program, structure: Structure) -> Iterator[tuple[int, ex.Term]]:
+    """Yield heroes without a trigger that have to be somewhere beside others, each with until when."""
+    for node in lasting_places(program):
+        actors = free_actors(node.body)
+        yield from ((hero, node.end) for hero in actors - {EGO, *structure.triggers} if len(actors) > 1)
 
 
 def _miss(side: LinearCondition, prediction: Profile, instant_s: float) -> float:

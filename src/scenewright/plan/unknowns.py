@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 
 # Between two nodes, how many there are in a leg at most, and how far a plan looks beyond its last knot; chosen.
 _CELL_S, _MOST_CELLS, AFTER_LAST_S = 0.6, 18, 3.0
-_LEAST_S = 0.05  # between two knots of one hero: shorter than any manner lets a piece be
+LEAST_S = 0.05  # between two knots of one hero: shorter than any manner lets a piece be
 _LEAST_APPROACH_S = 0.4  # before the settled end of an approach, for it to have a leg of its own; chosen
 _LATEST_S, _FASTEST_MPS = 200.0, 60.0  # beyond what any run lasts (see `LONGEST_S`) and any law of motion lets drive
 _BETWEEN_S = 2.0  # after one that goes first, where the other comes much later; chosen
@@ -216,7 +216,7 @@ class Unknowns:
             return
         between = Moment(last.constant_s - settled_s, last.unknown)
         if last.unknown is not None and first.unknown is None:
-            self._low[last.unknown] = max(self._low[last.unknown], first.constant_s + settled_s + _LEAST_S)
+            self._low[last.unknown] = max(self._low[last.unknown], first.constant_s + settled_s + LEAST_S)
         self._add_leg(hero, number, kind, first, between)
         self._add_leg(hero, number, kind, between, last, joined=True)
 
@@ -279,12 +279,16 @@ class Unknowns:
         """Return values within their bounds in which everybody's knots come one after another."""
         z = np.clip(z, self.low, self.high)
         for actor in self.asked.scene.program.actors:
-            latest = -np.inf
-            for name in actor.sketch.knots:
-                moment = self.moments[self.asked.knot(actor.id, name)]
+            moments = [self.moments[self.asked.knot(actor.id, name)] for name in actor.sketch.knots]
+            soonest, latest = -np.inf, np.inf
+            for moment in moments:
                 if moment.unknown is not None:
-                    z[moment.unknown] = max(z[moment.unknown], latest + _LEAST_S - moment.constant_s)
-                latest = max(latest, moment.value(z))
+                    z[moment.unknown] = max(z[moment.unknown], soonest + LEAST_S - moment.constant_s)
+                soonest = max(soonest, moment.value(z))
+            for moment in reversed(moments):  # those that are known come when they do
+                if moment.unknown is not None:
+                    z[moment.unknown] = min(z[moment.unknown], latest - LEAST_S - moment.constant_s)
+                latest = min(latest, moment.value(z))
         for meeting, between in self._meetings:
             if between is not None:
                 z[between] = np.clip(self._between_s(meeting, z), self.low[between], self.high[between])

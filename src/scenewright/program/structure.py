@@ -6,7 +6,7 @@ only reads the structure of the formulas; values and maps play no part.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -165,24 +165,31 @@ def _instants(program: Program) -> list[frozenset[KnotKey]]:
 
 
 def _trigger_of(program: Program, hero: int, instants: list[frozenset[KnotKey]]) -> frozenset[KnotKey] | None:
-    sketch = program.actor(hero).sketch
-    for knot in sketch.knots[1:]:
-        for instant in instants:
-            if (hero, knot) in instant and any(actor == EGO for actor, _ in instant):
-                return instant
-        if any(
-            _ties_to_ego(each.formula, hero, knot) or _at_time(each.formula, hero, knot) for each in program.constraints
-        ):
-            return frozenset({(hero, knot)})
+    for knot in program.actor(hero).sketch.knots[1:]:
+        found = with_ego(program, instants, hero, knot)
+        if found is not None or any(_at_time(each.formula, hero, knot) for each in program.constraints):
+            return found or frozenset({(hero, knot)})
     return None
+
+
+def with_ego(
+    program: Program, instants: Iterable[frozenset[KnotKey]], hero: int, knot: str
+) -> frozenset[KnotKey] | None:
+    """Return the instant of a hero's knot where the ego has one then too, or something is asked of it; else None."""
+    for instant in instants:
+        if (hero, knot) in instant and any(actor == EGO for actor, _ in instant):
+            return instant
+    tied = any(_ties_to_ego(each.formula, hero, knot) for each in program.constraints)
+    return frozenset({(hero, knot)}) if tied else None
 
 
 def _ties_to_ego(formula: Formula, hero: int, knot: str) -> bool:
     """Whether `formula` asks for something of the ego at the hero's knot: ``gap(A0, A1, A1(t1)) == 12``."""
+    then = Elapsed(hero, knot)
     for node in walk(formula):
-        if isinstance(node, State | Derived) and node.actor == EGO and node.at == Elapsed(hero, knot):
+        if isinstance(node, State | Derived) and node.actor == EGO and node.at == then:
             return True
-        if isinstance(node, Derived) and node.actor == hero and node.target == EGO and node.at == Knot(knot):
+        if isinstance(node, Derived) and (node.actor, node.target) == (hero, EGO) and node.at in (Knot(knot), then):
             return True
     return False
 

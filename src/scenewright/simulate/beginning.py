@@ -121,7 +121,7 @@ def _planned(
     world: World, scene: Scene, start: EgoFirstState, limits: Mapping[int, Limits], predictor: Predictor
 ) -> _Planned:
     structure = read_structure(scene.program)
-    planner = Planner(scene, structure, limits, predictor, linear_conditions(scene, structure))
+    planner = Planner(scene, structure, limits, predictor, linear_conditions(scene, structure), world.witness)
     attempt = planner.begin((0.0, start.s_m, start.speed_mps, start.accel_mpss))
     return _Planned(planner, start, attempt, *_saved_and_touched(world, start, attempt))
 

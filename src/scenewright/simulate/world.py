@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from scenewright.drive.guarded import GuardedPolicy
 from scenewright.drive.loading import load_policy
-from scenewright.plan.alternatives import decided
+from scenewright.plan.alternatives import planned_for
 from scenewright.plan.prediction import ConstantSpeed, Predictor, predictor_called
 from scenewright.program.structure import Structure, read_structure
 from scenewright.program.types import EGO
@@ -19,6 +19,7 @@ from scenewright.solve.feasibility import EgoBounds, Feasibility
 from scenewright.solve.limits import Limits, Signs, limits_on
 from scenewright.solve.parameters import settle
 from scenewright.solve.proofs.refuters import SOLVERS
+from scenewright.solve.proofs.witness import Witness
 
 
 class World:
@@ -41,6 +42,8 @@ class World:
     ----------
     planned
         The scene as heroes are planned in it: what lasts is decided.
+    witness
+        How it can happen, if a check has found that.
 
     Raises
     ------
@@ -59,6 +62,7 @@ class World:
         simulator: str = "builtin",
     ) -> None:
         self.scene = self.planned = scene
+        self.witness: Witness | None = None
         self.rates = rates
         self.policy = load_policy(ego)
         guarded = GuardedPolicy(self.policy.policy, self.policy.name)
@@ -81,5 +85,6 @@ class World:
     def choose_and_check(self, explain: bool = True) -> Feasibility:
         """Give open parameters values, and ask whether the scenario can happen with them; with `explain`, why not."""
         self.scene, answer = settle(self.scene, self.structure, self.limits, self.ego_bounds, self.refuter, explain)
-        self.planned = decided(self.scene, answer.witness) if answer.witness is not None else self.scene
+        self.witness = answer.witness
+        self.planned = planned_for(self.scene, self.witness)
         return answer

@@ -101,6 +101,10 @@ class Signs:
         """Return the limit at a place."""
         return self.limits_mps[max(bisect_right(self.starts_m, s_m) - 1, 0)]
 
+    def up_to(self, count: int) -> Signs:
+        """Return the first ones only: whoever does something else before it comes to the next has not heeded it yet."""
+        return Signs(self.starts_m[:count], self.limits_mps[:count])
+
     def evenly_mps(self, s_m: FloatArray) -> FloatArray:
         """Return how fast one who heeds them drives at places, who gets slower and faster evenly."""
         starts_m, limits_mps = np.array(self.starts_m), np.array(self.limits_mps)

@@ -7,7 +7,7 @@ import pytest
 from scenewright.program import expressions as ex
 from scenewright.program.printer import print_expression
 from scenewright.program.text import parse_program
-from scenewright.solve.proofs.forms import asserted, free_actors
+from scenewright.solve.proofs.forms import asserted, free_actors, lasting_places
 
 HEAD = "Actor 0 (ego):\n- W\n- [t0, go, t1, go, t2]\n\nActor 1 (hero):\n- W\n- [t0, go, t1, dec, t2]\n\nConstraints:\n"
 
@@ -64,3 +64,17 @@ def test_what_is_asked_of_a_piece_is_asked_at_each_moment() -> None:
     assert ex.piece_of(changed) is None
     assert ex.State(1, 2, None) in list(ex.walk(changed))
     assert ex.piece_of(formula("A1a(t1) <= 3")) is None
+
+
+def test_what_lasts_of_places_is_told_from_what_is_a_law_of_motion() -> None:
+    lines = [
+        "always[A1(t0), A1(t1)] (gap(A0, A1) >= 20)",
+        "never[A1(t0), 3] (A1x > stop_line and A0v < 2)",
+        "always[A1(t0), A1(t1)] (A1v <= 8 and A1a <= 1)",
+        "eventually[A1(t0), A1(t1)] (gap(A0, A1) >= 30)",
+        "not eventually[1, 2] (tta(A1, stop_line) < 2)",
+        "A1v(t1) == 50 or always[1, 2] (A1x >= 5)",
+    ]
+    program = parse_program(HEAD + "A0(t1) == A1(t1)\n" + "\n".join(lines) + "\n")
+    ends = [print_expression(node.end) for node in lasting_places(program)]
+    assert ends == ["A1(t1)", "3", "2", "2"]

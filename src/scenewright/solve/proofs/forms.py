@@ -5,6 +5,7 @@ What enters: formulas of a program. What leaves: their parts, or the same said w
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 from scenewright.program import expressions as ex
@@ -38,6 +39,15 @@ def asserted(formula: ex.Formula, program: Program, denied: bool = False) -> ex.
         case ex.Compare() if denied:
             return replace(formula, operator=ex.CONTRARY[formula.operator])
     return formula
+
+
+def lasting_places(program: Program) -> Iterator[ex.Temporal]:
+    """Yield what a program says that always holds for some time, and not of speeds and rates alone."""
+    for node in (node for each in program.constraints for node in ex.walk(asserted(each.formula, program))):
+        if isinstance(node, ex.Temporal) and node.operator == "always":
+            free = (each for each in ex.walk(node.body) if isinstance(each, ex.State | ex.Derived) and each.at is None)
+            if any(isinstance(each, ex.Derived) or each.order == 0 for each in free):
+                yield node
 
 
 def free_actors(body: ex.Formula) -> set[int]:
