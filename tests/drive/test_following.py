@@ -182,3 +182,14 @@ def test_preferred_speed_is_one_it_holds(name: str) -> None:
     assert log.speed_mps[-1] == pytest.approx(speed_mps, abs=2.0)
     if name in ("idm", "speeder", "dawdler", "delayed"):
         assert log.speed_mps[-1] == pytest.approx(speed_mps, abs=0.05)
+
+
+def test_who_drives_fast_sees_further() -> None:
+    """On motorways a leader that was seen from 120 m on made a careful driver brake with 8 m/s^2."""
+
+    def at_first(ahead_m: float, speed_mps: float) -> float:
+        log = drive(build("speeder"), THROUGH, 50.0, speed_mps, [Car("hero", THROUGH, 50.0 + ahead_m, 0.0)], 0.1)
+        return log.accel_mpss[0]
+
+    assert at_first(150.0, 10.0) == at_first(250.0, 10.0)
+    assert at_first(150.0, 19.0) < at_first(250.0, 19.0) - 0.5

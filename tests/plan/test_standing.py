@@ -101,3 +101,24 @@ def test_after_its_trigger_a_hero_answers_the_ego_in_what_it_is_to_do_with_it(
 ) -> None:
     planner = planner_of(scene_of(program("W", sketch, f"A0(t1) == A1(t1)\nA0x(t1) == stop_line - 60\n{line}")))
     assert planner._reactive == {HERO: pieces}
+
+
+PAST = "A1x(t2) == stop_line\nA1v(stop) == 0\nA0(t1) == A1(t1)\nA0x(t1) == stop_line - 50\nA1x(t1) == stop_line - 20\n"
+
+
+@pytest.mark.parametrize("past", ["A0x(A1(t3)) == junction_end", "A0x(t2) == junction_end\nA0(t2) == A1(t3)"])
+def test_who_stands_until_the_ego_is_past_waits_for_it_however_that_is_written(past: str) -> None:
+    """A place of the ego at a moment of a hero's is a condition on both: it ended with a fault."""
+    planner = planner_of(scene_of(program("E, N", "t0, go, t1, dec, t2, stop, t3, acc, t4", PAST + past)))
+    planner.begin((0.0, 200.0, 10.0, 0.0))
+    planned_s = planner.plan.profiles[HERO].knot_times_s["t3"]
+    s_m = 200.0
+    for step in range(1, 601):  # slower than was foreseen from the trigger on
+        s_m += 0.02 * (speed_mps := 10.0 if step <= 300 else 8.0)
+        planner.observe((0.02 * step, s_m, speed_mps, 0.0))
+        if step % 5 == 0:
+            planner.tick(0.02 * step)
+    ends_m = planner.scene.landmark_m(0, "junction_end", None)
+    goes_s = planner.plan.profiles[HERO].knot_times_s["t3"]
+    assert goes_s == pytest.approx(12.0 + (ends_m - s_m) / 8.0, abs=0.1)
+    assert goes_s > planned_s + 0.5

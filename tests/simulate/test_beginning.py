@@ -214,3 +214,12 @@ def test_the_ego_begins_in_nobodys_place() -> None:
     behind_m = start.s_m - planner.plan.profiles[1].state(0.0)[0]
     assert attempt.is_good
     assert behind_m > VEHICLE_LENGTH_M
+
+
+def test_no_trigger_comes_before_what_is_to_be_seen_before_it() -> None:
+    """21.5 s before its line an ego that drives as people there do is where its road begins."""
+    asked = "A0(t1) == A1(t1)\ntta(A0, stop_line, t1) == 21.5\nA1x(t1) == conflict_point - 18\nA1v(t2) == 0\n"
+    world = world_of(program("E, N", "t0, go, t1, dec, t2", asked))
+    found = first_plan(world, world.predictor)
+    assert found is not None
+    assert found[2].plan.profiles[1].knot_times_s["t1"] >= 0.5

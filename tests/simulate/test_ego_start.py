@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from scenewright.drive.guarded import GuardedPolicy
@@ -9,7 +11,7 @@ from scenewright.drive.loading import load_policy
 from scenewright.drive.protocol import EgoPolicy
 from scenewright.orchestrate import orchestrate
 from scenewright.request import Request
-from scenewright.simulate.ego_start import EgoFirstState, ego_starts
+from scenewright.simulate.ego_start import EgoFirstState, ego_starts, usual_lead_s
 from stories import Stage, program
 
 REST = """
@@ -178,3 +180,31 @@ def test_an_ego_whose_place_another_one_tells_begins_well_before_it(lines: str) 
     assert result.status == "success"
     assert result.verdict is not None
     assert result.verdict.facts["trigger_time_s"]["hero"] == pytest.approx(8.0, abs=0.1)
+
+
+def test_a_road_without_a_junction_leaves_room_before_its_end(shared_dir: Path) -> None:
+    """Two on one way meet nowhere on it: where it ends there is no room for what they are to do."""
+    on = Stage(
+        f'map "{shared_dir / "maps/ncap/StraightRoad_NCAP.xodr"}"\n'
+        + program("E", "t0, go, t1, dec, t2", "A0(t1) == A1(t1)\ngap(A0, A1, t1) == 30\nA1v(t2) == 0", ego_route="E"),
+        load_policy("constant").policy,
+    )
+    assert all(start.s_m < 750.0 for start in starts(on))
+
+
+@pytest.mark.parametrize("begins_mps", [None, 9.0])
+@pytest.mark.parametrize("way_m", [5.0, 15.0, 30.0, 100.0])
+def test_nobody_waits_for_the_ego_to_come_where_its_own_way_is_short(way_m: float, begins_mps: float | None) -> None:
+    told = f"A1x(t0) == conflict_point - 18 - {way_m}\n" + (f"A1v(t0) == {begins_mps}\n" if begins_mps else "")
+    on = stage(told, "constant")
+    lead_s = usual_lead_s(on.scene, on.structure, on.limits, on.conditions)
+    usual_mps = begins_mps or on.limits[1].natural_turn_speed_mps
+    assert lead_s == pytest.approx(min(8.0, max(1.0, way_m / usual_mps)))
+    ego, lands = next(ego_starts(on.scene, on.ego, on.limits[0], on.conditions, lead_s)), on.scene.landmarks_m[0]
+    assert (lands["conflict_point"] - 30.0 - ego.s_m) / ego.speed_mps == pytest.approx(lead_s, abs=1e-4)
+
+
+def test_who_is_to_stand_until_its_trigger_has_all_the_time() -> None:
+    text = program("E, N", "t0, stop, t1, acc, t2", REST.replace("A1v(t2) == 0", "A1v(t2) == 5"))
+    on = Stage(text, load_policy("constant").policy)
+    assert usual_lead_s(on.scene, on.structure, on.limits, on.conditions) == 8.0

@@ -87,6 +87,24 @@ def test_what_holds_or_cannot_be_told_is_not(constraint: str) -> None:
     assert told(f"probe: {constraint}\n") == []
 
 
+@pytest.mark.parametrize(
+    ("told_there", "asked"),
+    [
+        ("A0(t1) == A1(t1)\nA1x(t1) == 140", False),  # the hero comes there when the ego is so slow
+        ("A0(t1) == A1(t2)\nA1(t2) - A1(t1) >= 1", False),
+        ("A0(t1) - A1(t2) == 1", False),
+        ("A0(t1) == A1(t1)\nA0x(t1) == 140", True),
+        ("A0(t1) == A1(t1)\nA1(t1) == 4", True),
+        ("A1(t1) == 3\nA0(t1) - A1(t1) == 1", True),
+    ],
+)
+def test_how_fast_the_ego_is_at_a_moment_is_asked_of_a_plan_where_something_else_tells_that_moment(
+    told_there: str, asked: bool
+) -> None:
+    found = [each for each in told(f"{told_there}\nprobe: A0v(t1) == 3\n") if each.constraint.id == "probe"]
+    assert bool(found) is asked
+
+
 def test_knots_of_the_ego_are_when_it_passes_their_places() -> None:
     places = "A0x(t1) == conflict_point - {}\nA0(t2) - A0(t1) == 2 s\n"
     scene = scene_with(places.format(30))

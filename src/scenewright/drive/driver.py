@@ -36,7 +36,7 @@ _SETS_OFF_MPSS, _SETS_OFF_S = 0.3, 2.5
 _PULLS_OUT_MPSS = 1.5  # one that speeds up like this means to go first
 _SPEEDS_UP_S = 2.0  # how long one that speeds up is taken to go on doing so
 _GAP_ACCEL = 0.85  # of the full acceleration, since the driver model approaches its speed slowly
-_NEAR_M = 120.0
+_NEAR_M, _NEAR_S = 120.0, 8.5  # whom it sees: as far as it drives in so long, where that is more
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,7 +127,7 @@ class Driver:
         interaction = 0.0
         for other in observation.others:
             neighbour, follows = self._surroundings.neighbour(other, time_s), False
-            if abs(other.x_m - ego.x_m) + abs(other.y_m - ego.y_m) < _NEAR_M:
+            if abs(other.x_m - ego.x_m) + abs(other.y_m - ego.y_m) < max(_NEAR_M, _NEAR_S * speed_mps):
                 gap_m = neighbour.gap_ahead_m(other, ego, s_m, time_s)
                 if gap_m is not None and neighbour.lies_across:
                     accel = min(accel, stopping_accel(speed_mps, gap_m - _ACROSS_MARGIN_M, traits.brake_mpss))

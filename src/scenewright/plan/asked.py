@@ -91,7 +91,11 @@ class Asked:
             for hero in scene.program.heroes
         }
         landmarks = {hero.id: scene.routes[hero.id].landmarks for hero in scene.program.heroes}
-        self.junctions_m = {hero: marks.get("junction_start", marks["route_end"]) for hero, marks in landmarks.items()}
+        self.not_begun_m = {  # beyond its turn nobody shows any longer where it came from
+            hero: (marks["junction_start"], marks["route_end"] if "turn_end" in marks else marks["junction_end"])
+            for hero, marks in landmarks.items()
+            if "junction_start" in marks
+        }
         self.speed_told = {  # heroes of whom the program says how fast they are where they begin to act
             hero
             for hero, name in self.adapts_until.items()

@@ -269,8 +269,9 @@ class HeroRows:
     def _before_trigger(self) -> None:
         """Add that until its trigger a hero is not in the ego's way, and can wait for it."""
         wanted, shot, hero = self.asked.wanted, self.shot, self.hero.id
-        if hero not in self.now.heroes and shot.s[0] > (begins_m := self.asked.junctions_m[hero]):
-            # Nobody begins within a junction, unless the program puts it there.
+        begins_m, ends_m = self.asked.not_begun_m.get(hero, (_ANY, _ANY))
+        if hero not in self.now.heroes and begins_m < shot.s[0] < ends_m:
+            # Nobody begins within a junction or beyond its turn, unless the program puts it there.
             self.bounds.add(shot.s[0] - begins_m, shot.d_s[0], wanted.out_of_way_price, wanted.out_of_way_most)
         number = self._trigger_leg()
         if number is None:

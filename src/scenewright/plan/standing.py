@@ -19,7 +19,7 @@ from scenewright.plan.situation import Drive, Situation
 from scenewright.plan.triggers import SHORTEST_LEAD_S, TriggerTimes
 from scenewright.plan.unknowns import LEAST_S
 from scenewright.program import expressions as ex
-from scenewright.program.structure import Role, Structure, knots_of, with_ego
+from scenewright.program.structure import Role, Structure, actors_of, knots_of, with_ego
 from scenewright.program.types import EGO, Actor, PieceKind
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import LinearCondition, linear_conditions
@@ -268,11 +268,12 @@ class Standing:
         be somewhere beside it meanwhile.
         """
         knots, pieces, constraints = hero.sketch.knots, hero.sketch.pieces, self.scene.program.constraints
-        orders = [set(knots_of(each.formula)) for each in constraints if self.structure.roles[each.id] is Role.OUTCOME]
+        outcomes = (each.formula for each in constraints if self.structure.roles[each.id] is Role.OUTCOME)
+        orders = [set(knots_of(formula)) for formula in outcomes if EGO in actors_of(formula)]
         beside = [node.start for node in lasting_places(self.scene.program) if EGO in free_actors(node.body)]
         for piece in range(trigger, len(pieces)):
             later = {(hero.id, name) for name in knots[piece + 1 :]}
-            waits = any(keys & later and any(actor == EGO for actor, _ in keys) for keys in orders)
+            waits = any(keys & later for keys in orders)
             goes_on = ex.Elapsed(hero.id, knots[piece]) in beside
             goes_on |= with_ego(self.scene.program, self.structure.instants, hero.id, knots[piece + 1]) is not None
             if (pieces[piece] is PieceKind.STOP and waits) or goes_on:

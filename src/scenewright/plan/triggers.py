@@ -52,10 +52,8 @@ class TriggerTimes:
     def ego_alone(self) -> list[LinearCondition]:
         """Conditions on the ego alone at knots that it passes by itself (not those it shares with a hero's trigger)."""
         shared = {key for instant in self.structure.triggers.values() for key in instant}
-        first = (EGO, self.scene.program.ego.sketch.knots[0])
-        return [
-            c for c in self.conditions if set(c.weights) == {EGO} and not c.moments & shared and first not in c.moments
-        ]
+        own = {(EGO, name) for name in self.scene.program.ego.sketch.knots[1:]} - shared
+        return [c for c in self.conditions if set(c.weights) == {EGO} and c.moments <= own]
 
     def ego_decides(self, hero: Actor) -> bool:
         """Whether the ego alone decides when a hero's trigger comes."""

@@ -24,7 +24,7 @@ from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.roads.conflicts import shared_offset_m
 from scenewright.roads.grounding import Scene
 from scenewright.simulate.builtin import BuiltIn
-from scenewright.simulate.ego_start import SHIFTS, EgoFirstState, ego_starts
+from scenewright.simulate.ego_start import SHIFTS, EgoFirstState, ego_starts, usual_lead_s
 from scenewright.simulate.heroes import HeroDriver
 from scenewright.simulate.port import Start
 from scenewright.simulate.world import World
@@ -71,25 +71,29 @@ def first_plan(
 
 @dataclass(frozen=True, slots=True)
 class _Planned:
-    """A start, what is planned from it, whom only hard braking saves the ego from, and whether it touches a hero."""
+    """A start, what is planned from it, whom only hard braking saves the ego from, and whether it touches a hero.
+
+    And whether a trigger comes too soon for what is to be seen before it.
+    """
 
     planner: Planner
     start: EgoFirstState
     attempt: Attempt
     saved_from: list[int]
     touches: bool
+    too_soon: bool
 
     @property
     def is_good(self) -> bool:
-        """Whether it does what was asked, and nobody is saved or touched."""
-        return self.attempt.is_good and not self.saved_from and not self.touches
+        """Whether it does what was asked, nobody is saved or touched, and all is seen."""
+        return self.attempt.is_good and not (self.saved_from or self.touches or self.too_soon)
 
     @property
     def rank(self) -> tuple[bool, bool, float, float]:
         """How it compares with others: nobody is saved or touched, it does what it should, misses little."""
         missed = 0.0 if self.attempt.is_good else round(self.attempt.missed.by / GOOD)
         late_s = round(max(0.0, self.attempt.missed.late_s), 1)
-        return bool(self.saved_from) or self.touches, not self.attempt.is_good, late_s, missed
+        return bool(self.saved_from) or self.touches, self.too_soon or not self.attempt.is_good, late_s, missed
 
 
 def _plan_from(world: World, start: EgoFirstState, limits: Mapping[int, Limits], predictor: Predictor) -> _Planned:
@@ -123,7 +127,9 @@ def _planned(
     structure = read_structure(scene.program)
     planner = Planner(scene, structure, limits, predictor, linear_conditions(scene, structure), world.witness)
     attempt = planner.begin((0.0, start.s_m, start.speed_mps, start.accel_mpss))
-    return _Planned(planner, start, attempt, *_saved_and_touched(world, start, attempt))
+    seen_s, motions = float(scene.program.manner.settled_s), attempt.plan.profiles
+    too_soon = any(motions[h].knot_times_s[structure.trigger_knot(h) or ""] < seen_s for h in structure.triggers)
+    return _Planned(planner, start, attempt, *_saved_and_touched(world, start, attempt), too_soon)
 
 
 def _saved_and_touched(world: World, start: EgoFirstState, attempt: Attempt) -> tuple[list[int], bool]:
@@ -208,8 +214,10 @@ def _starts(world: World, predictor: Predictor) -> Iterator[EgoFirstState]:
 
     That is shifted, unless the program says where it begins, for an ego that does not hold its speed to be on time too.
     """
-    conditions = tuple(of_ego(linear_conditions(world.scene, world.structure), world.structure))
-    yield from ego_starts(world.scene, world.ego, world.limits[EGO], conditions)
+    told = linear_conditions(world.scene, world.structure)
+    conditions = tuple(of_ego(told, world.structure))
+    lead_s = usual_lead_s(world.scene, world.structure, world.limits, told)
+    yield from ego_starts(world.scene, world.ego, world.limits[EGO], conditions, lead_s)
     bounds = replace(world.ego_bounds, holds_speed=True)
     found = check_feasibility(world.scene, world.structure, world.limits, bounds, explain=False)
     if found.witness is None:

@@ -7,17 +7,20 @@ start that the policy would not hold begins the run with a transient that nobody
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
-from scenewright.program.types import EGO
+from scenewright.program.structure import Structure
+from scenewright.program.types import EGO, PieceKind
 from scenewright.roads.grounding import Scene
 from scenewright.simulate.vehicles import EgoVehicle
 from scenewright.solve.arrival import LinearCondition, knot_between_s
 from scenewright.solve.limits import MOVING_MPS, Limits
 
 _RUN_UP_M = 90.0
-_LEAD_S = 8.0  # before it comes to its first place, where the program does not say when that is; chosen
+# Before it comes to its first place, where the program does not say when that is, but no longer than heroes take for
+# their ways to their triggers, nor shorter than the second number; chosen.
+_LEAD_S, _LEAST_LEAD_S = 8.0, 1.0
 _ROUNDING_S = 1e-6
 # Of a start, until an ego comes to its place when it is told to. Measured: where the road is straight one is exact;
 # chosen for bends.
@@ -65,8 +68,8 @@ class _Way:
     middle_m: float
 
     @classmethod
-    def of(cls, scene: Scene, conditions: tuple[LinearCondition, ...]) -> _Way:
-        """Read it off a program's conditions."""
+    def of(cls, scene: Scene, conditions: tuple[LinearCondition, ...], lead_s: float) -> _Way:
+        """Read it off a program's conditions; `lead_s` is how long before its place it begins if nothing tells."""
         first, landmarks = scene.program.ego.sketch.knots[0], scene.landmarks_m[EGO]
         alone = [c for c in conditions if set(c.weights) == {EGO} and c.weights[EGO][0]]
         begins = next((c for c in alone if c.moments == {(EGO, first)}), None)
@@ -75,8 +78,11 @@ class _Way:
         least_s, most_s = 0.0, math.inf
         if comes is not None:
             least_s, most_s = knot_between_s(scene, min(comes.moments))
-        lead_s, is_told = min(max(_LEAD_S, least_s), most_s), most_s - least_s < _ROUNDING_S
-        return cls(begins, comes, lead_s, is_told, landmarks.get("intersection", 0.5 * landmarks["route_end"]))
+        lead_s, is_told = min(max(lead_s, least_s), most_s), most_s - least_s < _ROUNDING_S
+        ends_m = landmarks["route_end"]
+        meets_m = landmarks.get("intersection", ends_m)
+        # Two that never part on a road without a junction meet where it ends, and there is no room there for anything.
+        return cls(begins, comes, lead_s, is_told, meets_m if meets_m < ends_m else 0.5 * ends_m)
 
     def start_m(self, speed_mps: float) -> float:
         """Return where an ego of this speed starts: as the program says, else so that it comes to its place in time."""
@@ -105,15 +111,49 @@ def _order(scene: Scene, condition: LinearCondition) -> int:
     return min((sketch.knot_index(name) for who, name in condition.moments if who == EGO), default=len(sketch.knots))
 
 
+def usual_lead_s(
+    scene: Scene, structure: Structure, limits: Mapping[int, Limits], conditions: tuple[LinearCondition, ...]
+) -> float:
+    """Return how long before it comes to its first place an ego begins: no hero has to wait until it sets off.
+
+    A hero whose way to its trigger, from where it begins or its road does, is short would stand or creep on it.
+    """
+    lead_s = _LEAD_S
+    for hero in scene.program.heroes:
+        instant, sketch = structure.triggers.get(hero.id, frozenset()), hero.sketch
+        own = [c for c in conditions if set(c.weights) == {hero.id}]
+        placed = [c for c in own if c.weights[hero.id][0]]
+        there = next((c for c in placed if c.moments <= instant), None)
+        name = structure.trigger_knot(hero.id)
+        if there is None or name is None or PieceKind.STOP in sketch.pieces[: sketch.knot_index(name)]:
+            continue
+        at_first = frozenset({(hero.id, sketch.knots[0])})
+        told_mps = (-c.constant / c.weights[hero.id][1] for c in own if c not in placed and c.moments == at_first)
+        speed_mps = max(MOVING_MPS, next(told_mps, limits[hero.id].natural_turn_speed_mps))
+        begins = next((c for c in placed if c.moments == at_first), None)
+        begins_m = 0.0 if begins is None else begins.place_m(hero.id, speed_mps)
+        lead_s = min(lead_s, (there.place_m(hero.id, speed_mps) - begins_m) / speed_mps)
+    return max(_LEAST_LEAD_S, lead_s)
+
+
 def ego_starts(
-    scene: Scene, ego: EgoVehicle, limits: Limits, conditions: tuple[LinearCondition, ...]
+    scene: Scene,
+    ego: EgoVehicle,
+    limits: Limits,
+    conditions: tuple[LinearCondition, ...],
+    lead_s: float = _LEAD_S,
 ) -> Iterator[EgoFirstState]:
     """Yield first states that meet the program's conditions at the ego's first knot.
 
     Where the policy leaves its speed to the orchestrator (``constant``), natural speeds first. Else what the policy
     holds by itself, then slower states by choice, from which it will speed up.
+
+    Parameters
+    ----------
+    lead_s
+        How long before its first place it begins, where the program does not say (see `usual_lead_s`).
     """
-    way = _Way.of(scene, conditions)
+    way = _Way.of(scene, conditions, lead_s)
     for start in (way.on_time(ego, start) for start in _possible_starts(scene, ego, limits, conditions, way)):
         if not _is_past_something(scene, conditions, start):
             yield start

@@ -14,7 +14,7 @@ from scenewright.motion.profile import Profile
 from scenewright.program import expressions as ex
 from scenewright.program.evaluate import term_value, violation
 from scenewright.program.structure import KnotKey, Role, actors_of, knots_of, read_structure
-from scenewright.program.types import EGO, Constraint
+from scenewright.program.types import EGO, Constraint, Program
 from scenewright.roads.grounding import Scene
 from scenewright.solve.plan import PlanWorld
 from scenewright.translate.lines import named
@@ -59,7 +59,7 @@ def not_held(
         profiles[EGO].segments, {**profiles[EGO].knot_times_s, **dict(_passed_s(scene, profiles[EGO], world))}
     )
     world = PlanWorld(scene, {**profiles, EGO: passed}, parameters)
-    open_knots = {(EGO, name) for name in scene.program.ego.sketch.knots[1:]} - set(_tied(scene))
+    open_knots = {(EGO, name) for name in scene.program.ego.sketch.knots[1:]} - _told(scene.program)
     for constraint in scene.program.constraints:
         if actors_of(constraint.formula) == {EGO} and set(knots_of(constraint.formula)) & open_knots:
             continue
@@ -78,12 +78,25 @@ def not_held(
                 break
 
 
-def _tied(scene: Scene) -> Iterator[KnotKey]:
-    """Yield the knots of which the program says where their actors are there, or when they come."""
-    for formula in (constraint.formula for constraint in scene.program.constraints):
-        for node in ex.walk(formula) if isinstance(formula, ex.Compare) and formula.operator == "==" else ():
-            if isinstance(node, ex.Elapsed | ex.Derived) or (isinstance(node, ex.State) and node.order == 0):
-                yield from knots_of(formula)
+def _told(program: Program) -> set[KnotKey]:
+    """Return the knots of which the program says where the ego is there, or when they come.
+
+    Where a hero is to be at a moment does not tell when that is, nor that it is another's moment of which nothing does.
+    """
+    formulas = (each.formula for each in program.constraints)
+    equal = [formula for formula in formulas if isinstance(formula, ex.Compare) and formula.operator == "=="]
+    told: set[KnotKey] = {(actor.id, actor.sketch.knots[0]) for actor in program.actors}
+    timed: list[set[KnotKey]] = []
+    for formula in equal:
+        nodes = list(ex.walk(formula))
+        placed = {(node.actor, node.order) for node in nodes if isinstance(node, ex.State)}
+        if (EGO, 0) in placed or any(isinstance(node, ex.Derived) for node in nodes):
+            told.update(knots_of(formula))
+        elif not placed:
+            timed.append(set(knots_of(formula)))
+    while more := next((knots for knots in timed if len(knots - told) == 1), None):
+        told |= more
+    return told
 
 
 def _passed_s(scene: Scene, ego: Profile, world: PlanWorld) -> Iterator[tuple[str, float]]:
