@@ -469,3 +469,9 @@ def test_a_second_moment_that_comes_too_soon_is_missed_by_one_who_drives_as_cars
     moves = [each for each in result.verdict.conditions if each.id.startswith("kin_hero")]
     assert moves
     assert all(each.holds_at(TIGHT) for each in moves)
+
+
+@pytest.mark.parametrize("ego", ["staller", "stop-and-go"])
+def test_what_is_to_be_done_so_long_after_the_ego_is_done_then(ego: str) -> None:
+    rest = "A0x(t1) == stop_line - 60\nA1(t1) - A0(t1) == 2\nA1x(t1) == conflict_point - 30\nA1v(t2) == 0"
+    assert orchestrate(Request(program("E, N", "t0, go, t1, dec, t2", rest), ego=ego, takes=1)).status == "success"

@@ -90,6 +90,11 @@ ORDERS = {
         "gap(A1, A0, A1(t3)) == 12": [2],
         "gap(A0, A1, A1(t3)) == -12": [2],
     },
+    "t0, go, t1, dec, t2, go, t3": {
+        "A0x(t2) == stop_line\nA1(t3) - A0(t2) == 2": [2],
+        "A0x(t2) == stop_line\nA1(t3) > A0(t2)": [],  # who is first is a matter of what it does, not of waiting
+        "A1(t3) - A1(t1) == 9": [],
+    },
     "t0, go, t1, dec, t2, stop, t3, acc, t4": {"A1(t3) > A0(t2)": [2], "A1v(t4) == 5": []},
 }
 TABLE = [(sketch, line, pieces) for sketch, lines in ORDERS.items() for line, pieces in lines.items()]

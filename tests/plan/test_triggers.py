@@ -6,6 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from many_heroes import PROGRAMS
+from situations import HERO, asked_of, scene_of
 
 from scenewright.motion.profile import Profile, chain
 from scenewright.plan.triggers import SHORTEST_LEAD_S, TriggerTimes, adapts_until, beside_others
@@ -16,7 +17,7 @@ from scenewright.program.types import EGO, Actor
 from scenewright.roads.grounding import ground
 from scenewright.roads.load import load_map
 from scenewright.solve.arrival import TIGHT_LENGTH_M, linear_conditions
-from stories import BRAKES_GAP, GOES_FIRST_TIME, STOPS_AND_GOES, YIELDS_DISTANCE, YIELDS_TIME
+from stories import BRAKES_GAP, GOES_FIRST_TIME, STOPS_AND_GOES, YIELDS_DISTANCE, YIELDS_TIME, program
 
 NOW_S = 5.0
 
@@ -140,7 +141,7 @@ def test_who_hangs_on_a_hero_that_adapts_adapts_until_then() -> None:
         "Constraints:", "Actor 4 (alone):\n- E\n- [t0, go, t1, dec, t2]\n\nConstraints:"
     )
     program = parse_program(text + "A4v(t1) == 5\n")
-    assert adapts_until(program, read_structure(program)) == {1: "t1", 2: "t1", 3: "t1"}
+    assert adapts_until(program, read_structure(program), {}) == {1: "t1", 2: "t1", 3: "t1"}
 
 
 @pytest.mark.parametrize(("sync", "until"), [("", {1: "t1"}), ("A0(t1) == A1(t1)\n", {1: "t1"})])
@@ -151,6 +152,21 @@ def test_who_has_to_be_beside_others_adapts_until_its_last_knot(
     sketches = "Actor 0:\n- W\n- [t0, go, t1, go, t2]\nActor 1:\n- W\n- [t0, go, t1]\n"
     program = parse_program(f"{sketches}Constraints:\n{sync}always[A0(t0), A0(t1)] ({lasting})\n")
     structure = read_structure(program)
-    assert adapts_until(program, structure) == (until if counts or sync else {})
+    assert adapts_until(program, structure, {}) == (until if counts or sync else {})
     told = [(hero, print_expression(end)) for hero, end in beside_others(program, structure)]
     assert told == ([(1, "A0(t1)")] if counts and not sync else [])
+
+
+@pytest.mark.parametrize(
+    ("line", "until"),
+    [
+        ("A1(t1) - A0(t1) == 2", "t1"),
+        ("A1(t2) - A0(t1) >= 1.5", "t2"),
+        ("A1(t2) > A0(t1)", "t2"),
+        ("A0(t1) - A1(t1) == 2", None),  # the ego may answer what it does, and would be waited for for ever
+        ("A1(t2) < A0(t1)", None),
+    ],
+)
+def test_without_a_trigger_it_adapts_until_it_comes_behind_a_moment_of_the_ego(line: str, until: str | None) -> None:
+    asked = asked_of(scene_of(program("E, N", "t0, go, t1, dec, t2", f"A0x(t1) == conflict_point\n{line}")))
+    assert asked.adapts_until == ({} if until is None else {HERO: until})

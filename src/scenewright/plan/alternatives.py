@@ -22,14 +22,13 @@ from scenewright.solve.proofs.witness import Witness
 
 def planned_for(scene: Scene, witness: Witness | None) -> Scene:
     """Return the scene as heroes are planned in it."""
-    scene, structure = scene if witness is None else decided(scene, witness), read_structure(scene.program)
-    over = [
-        Constraint(
-            f"until_{number}", ex.Compare(">=", ex.Elapsed(hero, scene.program.actor(hero).sketch.knots[-1]), end)
-        )
-        for number, (hero, end) in enumerate(beside_others(scene.program, structure))
-    ]
-    return replace(scene, program=replace(scene.program, constraints=(*scene.program.constraints, *over)))
+    scene = scene if witness is None else decided(scene, witness)
+    program, structure = scene.program, read_structure(scene.program)
+    more = []
+    for number, (hero, end) in enumerate(beside_others(program, structure)):
+        last = ex.Elapsed(hero, program.actor(hero).sketch.knots[-1])
+        more.append(Constraint(f"until_{number}", ex.Compare(">=", last, end)))
+    return replace(scene, program=replace(program, constraints=(*program.constraints, *more)))
 
 
 def decided(scene: Scene, witness: Witness) -> Scene:

@@ -22,6 +22,7 @@ from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
 from scenewright.roads.model import RoadMap
 from scenewright.roads.routes import Route
+from scenewright.roads.turns import TurnSpan
 from scenewright.solve.limits import Limits, Signs
 from scenewright.solve.proofs.compiled import Compiled
 from scenewright.solve.proofs.events import EgoBounds, Events
@@ -59,7 +60,6 @@ class Asked:
 
     def __init__(self, scene: Scene, structure: Structure, limits: Mapping[int, Limits]) -> None:
         self.scene, self.structure, self.limits = scene, structure, limits
-        self.adapts_until = adapts_until(scene.program, structure)
         self.wanted = preferences_of(scene.program.manner)
         self.events = Events(scene, limits, EgoBounds())
         self.lowering = Lowering(self.events)
@@ -74,6 +74,8 @@ class Asked:
         self._formulas = Compiled([each.formula for each in (*lowered, *self.events.rules)], self.size)
         # How much later each instant is at least than another.
         self.least_s = least_differences(self.events, (each.formula for each in lowered))
+        self.of_ego = {self.knot(EGO, name) for name in scene.program.ego.sketch.knots} - {self.events.start}
+        self.adapts_until = adapts_until(scene.program, structure, self._behind_ego())
         self.narrowings = tuple(self.lowering.narrowings)
         self.times = [number_of(time) for time in self.events.times]
         self._scale = np.array([*(TIGHT[unknown.kind] for unknown in self.events.unknowns), 0.0])
@@ -92,7 +94,10 @@ class Asked:
         }
         landmarks = {hero.id: scene.routes[hero.id].landmarks for hero in scene.program.heroes}
         self.not_begun_m = {  # beyond its turn nobody shows any longer where it came from
-            hero: (marks["junction_start"], marks["route_end"] if "turn_end" in marks else marks["junction_end"])
+            hero: (
+                marks["junction_start"],
+                marks["junction_end" if TurnSpan.of(scene.routes[hero]) is None else "route_end"],
+            )
             for hero, marks in landmarks.items()
             if "junction_start" in marks
         }
@@ -124,6 +129,15 @@ class Asked:
         for actor, look in product(sorted(actors), looks):
             self.events.state(actor, look)
         return looks, ends
+
+    def _behind_ego(self) -> dict[int, str]:
+        """Return of each hero the first knot that surely does not come before one of the ego's but its first."""
+        found = dict[int, str]()
+        for hero in self.scene.program.heroes:
+            for name in reversed(hero.sketch.knots[1:]):
+                if any(self.least_s[earlier, self.knot(hero.id, name)] >= 0.0 for earlier in self.of_ego):
+                    found[hero.id] = name
+        return found
 
     def knot(self, actor: int, name: str) -> int:
         """Return the instant of a knot."""

@@ -271,10 +271,13 @@ class Standing:
         outcomes = (each.formula for each in constraints if self.structure.roles[each.id] is Role.OUTCOME)
         orders = [set(knots_of(formula)) for formula in outcomes if EGO in actors_of(formula)]
         beside = [node.start for node in lasting_places(self.scene.program) if EGO in free_actors(node.body)]
+        least_s = self._asked.least_s
         for piece in range(trigger, len(pieces)):
             later = {(hero.id, name) for name in knots[piece + 1 :]}
             waits = any(keys & later for keys in orders)
             goes_on = ex.Elapsed(hero.id, knots[piece]) in beside
             goes_on |= with_ego(self.scene.program, self.structure.instants, hero.id, knots[piece + 1]) is not None
+            begins, ends = (self._asked.knot(hero.id, name) for name in knots[piece : piece + 2])
+            goes_on |= any(least_s[at, ends] > 0.0 > least_s[at, begins] for at in self._asked.of_ego)
             if (pieces[piece] is PieceKind.STOP and waits) or goes_on:
                 yield piece

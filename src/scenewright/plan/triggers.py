@@ -130,14 +130,16 @@ class TriggerTimes:
         return condition.value({EGO: self.ego_began}) * condition.value({EGO: state[:2]}) < 0.0
 
 
-def adapts_until(program: Program, structure: Structure) -> dict[int, str]:
+def adapts_until(program: Program, structure: Structure, behind_ego: Mapping[int, str]) -> dict[int, str]:
     """Return the knot up to which each hero adapts: its trigger, or the first that hangs on a hero that adapts.
 
     So whoever brakes 1.5 s after another one began, which does so at a trigger, waits for that as well. And who has to
-    be somewhere beside others all the while adapts up to its last one.
+    be somewhere beside others all the while adapts up to its last one, and who has no trigger up to the first that is
+    told not to come before a moment of the ego's: one that comes before it is nothing that the ego could be waited for.
     """
     found = {hero: structure.trigger_knot(hero) or "" for hero in structure.triggers}
     found |= {hero: program.actor(hero).sketch.knots[-1] for hero, _ in beside_others(program, structure)}
+    found = {**behind_ego, **found}
     while True:
         more: dict[int, str] = {}
         for formula in (constraint.formula for constraint in program.constraints):
