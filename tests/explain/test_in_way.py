@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from scenewright.explain.in_way import InWay, hero_in_way
-from scenewright.orchestrate import set_up
+from scenewright.orchestrate import orchestrate, set_up
 from scenewright.request import Request, Result, Stages
 from stories import STORIES, driven
 
@@ -28,7 +28,7 @@ def test_who_stops_for_a_hero_is_not_to_blame() -> None:
     assert result.verdict is not None
     assert result.verdict.cause is not None
     assert result.verdict.cause.kind == "way"
-    assert "The ego slowed down for hero before the trigger" in result.verdict.cause.text
+    assert "The ego slowed down for the hero before the trigger" in result.verdict.cause.text
 
 
 @pytest.mark.parametrize(
@@ -81,3 +81,36 @@ def test_an_ego_that_stops_for_nobody_is_told_with_its_proof() -> None:
     assert result.verdict.cause is not None
     assert result.verdict.cause.kind == "ego"
     assert result.verdict.cause.evidence["off"] > 0.5
+
+
+def test_nobody_slows_down_for_one_behind_where_another_is_ahead() -> None:
+    """However near that one is: here it follows 12 m behind, the one that brakes is three times as far ahead."""
+    text = """
+Actor 0 (ego):
+- W
+- [t0, go, t1, go, t2]
+
+Actor 1 (behind):
+- W
+- [t0, go, t1]
+
+Actor 2 (ahead):
+- W
+- [t0, go, t1, dec, t2, acc, t3]
+
+Constraints:
+A0x(t0) == stop_line - 150
+gap(A1, A0, t0) == 12
+gap(A0, A2, t0) == 36
+A2(t1) == 2 s
+A2v(t2) == 3
+A0x(t1) == stop_line - 20
+A0(t1) == A1(t1)
+A2v(t3) == 12
+"""
+    result = orchestrate(Request(text, ego="idm", takes=1))
+    assert result.run is not None
+    world, _ = set_up(Request(text, ego="idm", takes=1), Stages(None))
+    found = hero_in_way(world, result.run)
+    assert found is not None
+    assert found.hero == "ahead"

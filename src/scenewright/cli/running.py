@@ -327,7 +327,7 @@ def report_verdict(console: Console, verdict: Verdict, tolerance: str, status: s
         headline = f"Success: it happened as described, within the {tolerance} tolerance."
     console.print(Text.assemble(tables.mark(not missed and status == "finished"), " ", (headline, "bold")))
     console.print(tables.aftermath(verdict), soft_wrap=True)
-    if status == "finished":
+    if status == "finished" and verdict.facts.get("trigger_time_s"):  # a program need not have one
         console.print(_trigger(verdict))
     for line in tables.cause(verdict):
         console.print(line, soft_wrap=True)

@@ -16,6 +16,7 @@ from scenewright.judge.tolerance import TIGHT, FloatArray
 from scenewright.simulate.ending import ROUTE_END_M
 from scenewright.simulate.loop import Run
 from scenewright.simulate.world import World
+from scenewright.translate.phrases import called
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,7 +26,7 @@ class InWay:
     Attributes
     ----------
     hero
-        The nearest one when it began.
+        The nearest one when it began, of those ahead if there are any.
     since_s
         From when on.
     time_s, apart_m, ego_mps, alone_mps
@@ -43,7 +44,7 @@ class InWay:
     def __str__(self) -> str:
         when = f"at {self.time_s:.1f} s, {self.apart_m:.0f} m away"
         return (
-            f"the ego slowed down for {self.hero} before the trigger: {when}, it drove {self.ego_mps:.1f} m/s, "
+            f"the ego slowed down for {called(self.hero)} before the trigger: {when}, it drove {self.ego_mps:.1f} m/s, "
             f"and drives {self.alone_mps:.1f} m/s where it is alone"
         )
 
@@ -64,11 +65,14 @@ def hero_in_way(world: World, run: Run) -> InWay | None:
     if slower.max() <= TIGHT.speed_mps:
         return None
     worst, since = int(slower.argmax()), int(np.argmax(slower > TIGHT.speed_mps))
-    apart_m = {
-        hero.name: np.hypot(trace.actors[hero.name].x_m - ego.x_m, trace.actors[hero.name].y_m - ego.y_m)
+    away_m = {
+        hero.name: (trace.actors[hero.name].x_m - ego.x_m, trace.actors[hero.name].y_m - ego.y_m)
         for hero in world.scene.program.heroes
     }
-    name = min(apart_m, key=lambda name: float(apart_m[name][since]))
+    apart_m = {name: np.hypot(*away) for name, away in away_m.items()}
+    eyes = np.cos(ego.heading_rad[since]), np.sin(ego.heading_rad[since])
+    behind = {name: bool(np.dot(eyes, [away[0][since], away[1][since]]) <= 0.0) for name, away in away_m.items()}
+    name = min(apart_m, key=lambda name: (behind[name], float(apart_m[name][since])))
     return InWay(
         name, float(ego.time_s[since]), float(ego.time_s[worst]), float(apart_m[name][worst]),
         float(ego.speed_mps[worst]), float(expected[worst]),

@@ -5,7 +5,9 @@ from __future__ import annotations
 import pytest
 
 from scenewright.errors import TranslationError
+from scenewright.program.printer import print_expression
 from scenewright.translate import story as st
+from scenewright.translate.compile import compile_story
 from scenewright.translate.read.sentences import read
 from scenewright.translate.tell import tell
 from scenewright.translate.understand import understand
@@ -289,3 +291,42 @@ def test_the_car_is_the_only_one_there_is(car: str) -> None:
         "The ego drives west. A truck turns left, headed east. " + NEAR.rstrip(", ") + f", {car} brakes to a stop."
     )
     assert len(story.actors) == 2
+
+
+LEAD = "The ego is headed west and goes straight on. The hero is headed west and goes straight on. "
+BRAKES = "When the ego is 30 m before the stop line, the hero brakes to 3 m/s. "
+BEHIND = "always[A1(t0), A1(t1)](gap(A0, A1) {})"
+
+
+@pytest.mark.parametrize(
+    ("said", "held"),
+    [
+        ("The hero stays at least 20 m ahead of the ego until it brakes.", [BEHIND.format(">= 20")]),
+        ("The hero remains 20 to 30 m ahead of the ego until it begins to brake.",
+         [BEHIND.format(">= 20"), BEHIND.format("<= 30")]),
+        ("Until the hero brakes, the ego is more than 20 m behind it.", [BEHIND.format("> 20")]),
+        ("The hero drives at most 30 m ahead of the ego until it brakes.", [BEHIND.format("<= 30")]),
+        ("The ego has a headway of at least 1 s to the hero until 2 s before the hero brakes.",
+         ["always[A1(t0), A1(t1) - 2](headway(A0, A1) >= 1)"]),
+    ],
+)  # fmt: skip
+def test_what_is_so_until_a_moment_holds_from_the_start(said: str, held: list[str]) -> None:
+    program = compile_story(read(f"{LEAD}{BRAKES}{said}"))
+    formulas = [print_expression(each.formula) for each in program.constraints]
+    assert sorted(each for each in formulas if each.startswith("always")) == sorted(held)
+
+
+@pytest.mark.parametrize(
+    ("said", "message"),
+    [
+        ("The hero is at least 20 m ahead of the ego until it speeds up.", "nothing was told of this deed before"),
+        (
+            "The hero is at least 20 m ahead of the ego until it brakes at 5 m/s.",
+            "nothing was told of this deed before",
+        ),
+        ("The hero until it brakes.", "not said what is done"),
+    ],
+)
+def test_until_which_moment_something_is_so_is_told_before(said: str, message: str) -> None:
+    with pytest.raises(TranslationError, match=message):
+        read(f"{LEAD}{BRAKES}{said}")

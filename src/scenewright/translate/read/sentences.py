@@ -94,7 +94,7 @@ class _Sentence:
     def _cut(self) -> None:
         """Cut the sentence into what happens, the moment at which it does, and the rest."""
         story, (main, *rest) = self.story, segments_of(self.chunks, bool(self.led.words))
-        if not main.chunks and rest and rest[0].link in ("before", "after"):
+        if not main.chunks and rest and rest[0].link in ("before", "after", "until"):
             rest[0].chunks, main.chunks = parted(rest[0].chunks)  # "2 s after ..., the hero brakes"
             rest[0].is_first = True
         later = next((each for each in rest if each.link == "when"), None)
@@ -143,8 +143,8 @@ class _Sentence:
         if when is not None and not any(each.is_event for each in items[:acts]):
             when, items = [*when, *items[:acts]], items[acts:]  # "when ..., the hero is 20 m before it and brakes"
         first = items[0] if items else Clause(story.quote)
-        if any(each.link == "until" for each in rest):
-            lasting(first)
+        if any(each.link == "until" for each in rest) and not any(_beside(each) for each in first.measures):
+            lasting(first)  # "drives 20 m ahead of the ego until ..." is so, and nothing that it does
         last = last_of(story, first.subject)
         if first.deed is None and last is not None and last.rests and last.ends is None:
             stands = st.standstill(last.actor)
@@ -189,10 +189,23 @@ class _Sentence:
             if first.times:
                 story.timed(moment, first)
             self._orders(moment, rest)
+        elif len(rest) == 1 and rest[0].link == "until" and not self.led.words:
+            self._until(items, rest[0])
         elif rest:
             story.refuse("it is not clear when this is so")
         else:
             self._facts(items)
+
+    def _until(self, items: list[Clause], until: Segment) -> None:
+        """Take what is so all the while until a moment: "The truck is at least 20 m ahead until it brakes"."""
+        story, amounts = self.story, [amount for _, amount in until.margins]
+        story.doer = items[-1].subject
+        end = st.Point(self._event_of(until.chunks), next(iter(amounts), None), until.side == "before")
+        story.doer = None
+        conditions = story.conditions(items)
+        if not conditions or (amounts and [op for op, _ in until.margins] != ["=="]):
+            story.refuse("it is not clear when this is so")
+        story.holds += [st.Hold("always", st.Point(st.START), end, each, story.quote) for each in conditions]
 
     def _moment(self, when: list[Clause]) -> int:
         """Return the moment that a sentence tells: one, for all that is said of it."""
@@ -461,3 +474,8 @@ def _unknown_to_programs(chunks: Sequence[Chunk]) -> TranslationError | None:
 
 def _measures(conditions: Iterable[st.Condition]) -> Iterator[st.Measure]:
     return (each for each in conditions if isinstance(each, st.Measure))
+
+
+def _beside(measure: st.Measure) -> bool:
+    """Whether it is of where somebody is beside another, and so no way of driving."""
+    return measure.other is not None and measure.quantity is not st.Quantity.SPEED
