@@ -311,9 +311,10 @@ BEHIND = "always[A1(t0), A1(t1)](gap(A0, A1) {})"
     ],
 )  # fmt: skip
 def test_what_is_so_until_a_moment_holds_from_the_start(said: str, held: list[str]) -> None:
-    program = compile_story(read(f"{LEAD}{BRAKES}{said}"))
-    formulas = [print_expression(each.formula) for each in program.constraints]
-    assert sorted(each for each in formulas if each.startswith("always")) == sorted(held)
+    for text in (f"{LEAD}{BRAKES}{said}", f"{LEAD}{said} {BRAKES}"):
+        program = compile_story(read(text))
+        formulas = [print_expression(each.formula) for each in program.constraints]
+        assert sorted(each for each in formulas if each.startswith("always")) == sorted(held)
 
 
 @pytest.mark.parametrize(
@@ -327,6 +328,6 @@ def test_what_is_so_until_a_moment_holds_from_the_start(said: str, held: list[st
         ("The hero until it brakes.", "not said what is done"),
     ],
 )
-def test_until_which_moment_something_is_so_is_told_before(said: str, message: str) -> None:
+def test_until_which_moment_something_is_so_is_told_somewhere(said: str, message: str) -> None:
     with pytest.raises(TranslationError, match=message):
         read(f"{LEAD}{BRAKES}{said}")

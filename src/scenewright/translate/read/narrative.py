@@ -7,7 +7,7 @@ out by custom (who brakes comes to a standstill, who stops and goes on has stood
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import takewhile
@@ -58,6 +58,7 @@ class Narrative(Cast):
     doings: list[Doing] = field(default_factory=list)
     orders: list[st.Order] = field(default_factory=list)
     holds: list[st.Hold] = field(default_factory=list)
+    afterwards: list[Callable[[], None]] = field(default_factory=list)  # what is read once all else is told
     pending: int | None = None  # a moment that the last sentence told, at which nobody does anything yet
     since: int | None = None  # a moment that was told after the last deed, and waits for nothing
     awaits: st.Quote | None = None  # the sentence that told nothing but a moment: what happens then must follow

@@ -55,6 +55,8 @@ def read(text: str, answers: Mapping[str, str] | None = None, name: str = "descr
             error.place = error.place or Where(name, text, narrative.quote.span)
             raise error from None
     try:
+        for each in narrative.afterwards:
+            each()
         return narrative.story()
     except TranslationError as error:
         if narrative.is_open and names_ego:
@@ -198,14 +200,17 @@ class _Sentence:
 
     def _until(self, items: list[Clause], until: Segment) -> None:
         """Take what is so all the while until a moment: "The truck is at least 20 m ahead until it brakes"."""
-        story, amounts = self.story, [amount for _, amount in until.margins]
-        story.doer = items[-1].subject
-        end = st.Point(self._event_of(until.chunks), next(iter(amounts), None), until.side == "before")
-        story.doer = None
-        conditions = story.conditions(items)
-        if not conditions or (amounts and [op for op, _ in until.margins] != ["=="]):
+        story, conditions = self.story, self.story.conditions(items)
+        if not conditions or (until.margins and [op for op, _ in until.margins] != ["=="]):
             story.refuse("it is not clear when this is so")
-        story.holds += [st.Hold("always", st.Point(st.START), end, each, story.quote) for each in conditions]
+        quote, doer, offset = story.quote, items[-1].subject, next((amount for _, amount in until.margins), None)
+
+        def hold() -> None:
+            story.quote, story.doer = quote, doer
+            end = st.Point(self._event_of(until.chunks), offset, until.side == "before")
+            story.holds += [st.Hold("always", st.Point(st.START), end, each, quote) for each in conditions]
+
+        story.afterwards.append(hold)  # what is done then may be told later
 
     def _moment(self, when: list[Clause]) -> int:
         """Return the moment that a sentence tells: one, for all that is said of it."""
