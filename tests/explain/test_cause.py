@@ -8,13 +8,14 @@ from pathlib import Path
 
 import pytest
 
-from scenewright.explain.cause import cause_of
+from scenewright.explain.cause import _denied, cause_of
 from scenewright.judge.files import cause_told, write_verdict
-from scenewright.judge.tolerance import TIGHT
-from scenewright.judge.verdict import Cause, bounded
+from scenewright.judge.tolerance import TIGHT, Leaf
+from scenewright.judge.verdict import Cause, Condition, bounded
 from scenewright.orchestrate import orchestrate, set_up
+from scenewright.program.text import parse_program
 from scenewright.request import Mode, Request, Result, Stages
-from stories import STOPS_AHEAD, STORIES, driven
+from stories import STOPS_AHEAD, STORIES, driven, program
 
 # Story, ego, further settings, and what it is.
 CASES = [
@@ -91,6 +92,17 @@ def test_what_an_ego_alone_is_asked_for_is_its_own_to_miss() -> None:
     found = cause(orchestrate(Request(text, ego="answering:Heedless:keep_mps=10.5", takes=1)))
     assert (found.kind, found.evidence["condition"]) == ("ego", "afterwards")
     assert "the ego alone decides" in found.text.lower()
+
+
+@pytest.mark.parametrize(("failed", "whose"), [(("ego",), True), (("ego", "hero"), False)])
+def test_a_moment_of_both_that_both_miss_is_not_the_egos_to_miss(failed: tuple[str, ...], whose: bool) -> None:
+    """It is judged where it is nearest to either side: the ego may well have been at its place, a moment sooner."""
+    second = "A0(t2) == A1(t2)\nego: A0x(t2) == conflict_point - 20\nhero: A1x(t2) == stop_line - 5\n"
+    first = "A0(t1) == A1(t1)\nA0x(t1) == conflict_point - 70\nA1x(t1) == stop_line - 30\n"
+    told = parse_program(program("E, N", "t0, go, t1, dec, t2, go, t3", f"{first}{second}"))
+    conditions = [Condition(each, "outcome", each, 20.0, 18.6, -1.4, "m", Leaf(1.4, "length")) for each in failed]
+    found = _denied(told, conditions, [told.constraint(each) for each in failed], None)
+    assert (found is not None) is whose
 
 
 @pytest.mark.parametrize(("name", "told"), [("start", "brakes with 6.0 m/s^2 at once"), ("c1", "no first plan")])

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
+import numpy as np
 import pytest
 
 from scenewright.explain.in_way import InWay, hero_in_way
 from scenewright.orchestrate import orchestrate, set_up
 from scenewright.request import Request, Result, Stages
 from stories import STORIES, driven
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
 def looked_at(story: str, ego: str) -> tuple[InWay | None, Result]:
@@ -29,6 +34,18 @@ def test_who_stops_for_a_hero_is_not_to_blame() -> None:
     assert result.verdict.cause is not None
     assert result.verdict.cause.kind == "way"
     assert "The ego slowed down for the hero before the trigger" in result.verdict.cause.text
+
+
+def test_nobody_slows_down_for_who_is_behind() -> None:
+    request = Request((EXAMPLES / "boxed_in.scene").read_text(), ego="stop-and-go", seed=1, takes=1)
+    run, (world, _) = orchestrate(request).run, set_up(request, Stages(None))
+    assert run is not None
+    found = hero_in_way(world, run)
+    assert found is not None
+    back, ego = run.trace.actors["back"], run.trace.actors["ego"]
+    since = int(np.searchsorted(ego.time_s, found.since_s))
+    assert ego.s_m[since] - back.s_m[since] < run.trace.actors["front"].s_m[since] - ego.s_m[since], "it is nearer"
+    assert found.hero == "front"
 
 
 @pytest.mark.parametrize(

@@ -16,6 +16,7 @@ from scenewright.plan.pairs import Meeting
 from scenewright.plan.preferences import Preferences
 from scenewright.program.types import EGO
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
+from stories import program
 
 WANTED, TICK_S, LASTS_S = Preferences(), 0.1, 40.0
 SURELY_M = 0.3
@@ -61,6 +62,15 @@ def test_who_is_faster_than_the_one_ahead_never_reaches_it(gap_m: float, first_m
     assert room_m.min() >= SURELY_M
     assert motions[2].state(LASTS_S)[1] <= first_mps + closing_mps
     assert hardest(motions[2]) <= 8.0
+
+
+@pytest.mark.parametrize("first_mpss", [-0.02, -0.3, -1.0, -3.0])
+def test_who_is_ahead_may_brake_faintly_or_hard(first_mpss: float) -> None:
+    """Where the one ahead would stand, one day, is no room for who comes to it before that."""
+    slows = Profile((Segment(0.0, 6.8 / -first_mpss, VEHICLE_LENGTH_M + 9.0, 6.8, first_mpss),), {"t0": 0.0})
+    motions = driven({1: slows, 2: even(0.0, 8.7)}, (LANE,), 2)
+    assert (places(motions[1]) - places(motions[2]) - VEHICLE_LENGTH_M).min() >= SURELY_M
+    assert hardest(motions[2]) <= 4.0 - first_mpss
 
 
 def test_a_row_of_three_comes_to_stand_behind_one_that_does() -> None:
@@ -121,3 +131,17 @@ def test_a_planner_lets_nobody_whose_plan_is_over_reach_the_one_ahead() -> None:
         planner.tick(now_s)
         places_m = [planner.plan.profiles[hero].state(now_s)[0] for hero in (ahead, behind)]
         assert places_m[0] - places_m[1] >= VEHICLE_LENGTH_M + SURELY_M
+
+
+def test_nobody_whose_plan_is_over_reaches_the_ego() -> None:
+    text = program("W", "t0, go, t1", "A1x(t0) == 84\nalways[0 s, 3 s] (gap(A1, A0) >= 14 and gap(A1, A0) <= 20)")
+    planner = planner_of(scene_of(text))
+    planner.begin((0.0, 100.0, 9.0, 0.0))
+    ego_m, ego_mps = 100.0, 9.0
+    for k in range(1, 200):
+        braking_mpss = 1.0 if k * TICK_S > 4.0 and ego_mps > 0.0 else 0.0
+        ego_m, ego_mps = ego_m + ego_mps * TICK_S, max(0.0, ego_mps - braking_mpss * TICK_S)
+        planner.observe((k * TICK_S, ego_m, ego_mps, -braking_mpss))
+        planner.tick(k * TICK_S)
+        assert ego_m - planner.plan.profiles[1].state(k * TICK_S)[0] >= VEHICLE_LENGTH_M + SURELY_M
+    assert planner.plan.profiles[1].state(k * TICK_S)[1] < 0.1

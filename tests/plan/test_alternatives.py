@@ -60,11 +60,27 @@ def test_all_other_constraints_stay_as_they_are() -> None:
     assert not any(isinstance(node, ex.Logic) for node in ex.walk(after["tested"]))
 
 
-def test_who_has_to_be_beside_the_ego_is_not_done_before_that_is_over() -> None:
-    text = program("W", "t0, go, t1", "A0x(t1) == stop_line - 10\nalways[A0(t0), A0(t1)] (gap(A1, A0) <= 20)")
-    scene = scene_of(text)
+BESIDE = "A0x(t1) == stop_line - 10\nalways[A0(t0), A0(t1)] (gap(A1, A0) <= 20)\n"
+
+
+@pytest.mark.parametrize(
+    ("more", "over"),
+    [
+        ("", "A1(t1) - A0(t1) == 0"),
+        ("A1x(t1) == stop_line", "A1(t1) - A0(t1) >= 0"),
+        (
+            "always[0 s, 9 s] (gap(A1, A0) >= 5)",
+            "A1(t1) - A0(t1) == 0 and A1(t1) - 9 >= 0 or A1(t1) - A0(t1) >= 0 and A1(t1) - 9 == 0",
+        ),
+    ],
+)
+def test_who_has_to_be_beside_the_ego_is_done_when_that_is_over(more: str, over: str) -> None:
+    scene = scene_of(program("W", "t0, go, t1", f"{BESIDE}{more}\n"))
     *same, last = planned_for(scene, None).program.constraints
     assert tuple(same) == scene.program.constraints
-    assert print_expression(last.formula) == "A1(t1) >= A0(t1)"
-    with_trigger = scene_of(text + "A0(t1) == A1(t1)\n")
-    assert planned_for(with_trigger, None) == with_trigger
+    assert print_expression(last.formula) == over
+
+
+def test_who_has_a_trigger_is_done_when_it_is() -> None:
+    scene = scene_of(program("W", "t0, go, t1", f"{BESIDE}A0(t1) == A1(t1)\n"))
+    assert planned_for(scene, None) == scene

@@ -224,6 +224,21 @@ def test_within_its_stretch_of_time_what_has_to_last_is_asked_at_a_look(gap_m: f
     assert not after
 
 
+def test_what_has_to_last_is_not_done_by_ending_it_sooner() -> None:
+    """Of a stretch of a quarter of a second with a distance that is 20 m short it is the distance that is asked for."""
+    asked = asked_for("always[A1(t1), A1(t2)] (gap(A0, A1) >= 40)", "W", LANE)
+    look, (first, last) = asked.looks[-1], next(iter(asked.stretches))
+    of = asked.events.states
+    states = {each: [number_of(of[actor, each].place) for actor in (EGO, HERO)] for each in (look, first, last)}
+    at = {asked.times[look]: 6.1, asked.times[first]: 6.0, asked.times[last]: 6.25}
+    at |= {place: m for places in states.values() for place, m in zip(places, (100.0, 120.0), strict=True)}
+    rows = rows_at(asked, at)  # type: ignore[arg-type]
+    for each, places in states.items():
+        (row,) = [row for row in rows if all(row.slope[place] for place in places)]
+        assert row.level > 10.0, each
+        assert row.spare == (0.5 if each == look else 0.0)
+
+
 @pytest.mark.parametrize(("bound", "drives"), [("<= 2", True), (">= 0.8", False), ("== 1", True)])
 def test_who_is_to_be_there_soon_enough_drives(bound: str, drives: bool) -> None:
     """Standing, one is as long from any place as one likes: longer than at most 2 s, and never shorter than 0.8 s."""

@@ -436,6 +436,7 @@ def test_a_sign_beyond_its_trigger_does_not_slow_down_who_is_to_brake_hard(rate:
 BRAKES = "A0(t1) == A1(t1)\ngap(A0, A1, t1) == 40\n"
 FOLLOWS = "A0(t1) == A1(t1)\ngap(A1, A0, t1) == 30\nA0v(t1) >= 5\nheadway(A1, A0, t2) == 1\nA1(t3) - A1(t2) == 6\n"
 KEEPS = "(headway(A1, A0) >= 0.6 and headway(A1, A0) <= 1.6)"
+TWICE = "A0x(t1) == stop_line - 100\nA0x(t2) == stop_line - 30\n"
 NEAR = "A0(t2) == A1(t3)\ngap(A0, A1, A0(t2)) == 18\nA1v(t4) == 11"
 
 
@@ -450,6 +451,7 @@ NEAR = "A0(t2) == A1(t3)\ngap(A0, A1, A0(t2)) == 18\nA1v(t4) == 11"
         ),
         ("t0, go, t1, acc, t2, go, t3", f"{FOLLOWS}always[A1(t2), A1(t3)] {KEEPS}", "stop-and-go"),
         ("t0, go, t1", "A0x(t1) == stop_line - 10\nalways[A0(t0), A0(t1)] (headway(A1, A0) <= 2)", "idm"),
+        ("t0, go, t1", f"{TWICE}always[A0(t1), A0(t2)] (gap(A0, A1) >= 18 and gap(A0, A1) <= 24)", "stop-and-go"),
     ],
 )
 def test_what_a_hero_is_to_do_with_the_ego_after_its_trigger_or_without_one_is_done(
@@ -457,6 +459,16 @@ def test_what_a_hero_is_to_do_with_the_ego_after_its_trigger_or_without_one_is_d
 ) -> None:
     """A second moment of both, an end of braking that the ego tells, and keeping a distance all along."""
     assert orchestrate(Request(program("W", sketch, rest), ego=ego, takes=1)).status == "success"
+
+
+@pytest.mark.parametrize("ego", ["idm", "stop-and-go"])
+def test_who_waits_until_the_ego_has_passed_goes_on_then(ego: str) -> None:
+    """It has no trigger: its last knot, in the driveway beyond, is no place to be at late, nor to keep clear for."""
+    waits = "A0x(t1) == conflict_point\nalways[A1(t0), A0(t1)] (A1x <= stop_line)\nA1x(t2) == turn_end"
+    result = orchestrate(Request(program("E, N", "t0, go, t1, go, t2", waits), ego=ego, seed=1, takes=1))
+    assert result.status == "success"
+    assert result.run is not None
+    assert result.run.trace.duration_s < 60.0
 
 
 def test_a_second_moment_that_comes_too_soon_is_missed_by_one_who_drives_as_cars_do() -> None:

@@ -145,16 +145,18 @@ def test_who_hangs_on_a_hero_that_adapts_adapts_until_then() -> None:
 
 
 @pytest.mark.parametrize(("sync", "until"), [("", {1: "t1"}), ("A0(t1) == A1(t1)\n", {1: "t1"})])
-@pytest.mark.parametrize(("lasting", "counts"), [("gap(A1, A0) <= 20", True), ("A1v <= 9", False)])
-def test_who_has_to_be_beside_others_adapts_until_its_last_knot(
+@pytest.mark.parametrize(
+    ("lasting", "counts"), [("gap(A1, A0) <= 20", True), ("A1x <= A1.stop_line", True), ("A1v <= 9", False)]
+)
+def test_who_has_to_be_beside_others_or_until_they_are_somewhere_adapts_until_its_last_knot(
     sync: str, until: dict[int, str], lasting: str, counts: bool
 ) -> None:
     sketches = "Actor 0:\n- W\n- [t0, go, t1, go, t2]\nActor 1:\n- W\n- [t0, go, t1]\n"
     program = parse_program(f"{sketches}Constraints:\n{sync}always[A0(t0), A0(t1)] ({lasting})\n")
     structure = read_structure(program)
     assert adapts_until(program, structure, {}) == (until if counts or sync else {})
-    told = [(hero, print_expression(end)) for hero, end in beside_others(program, structure)]
-    assert told == ([(1, "A0(t1)")] if counts and not sync else [])
+    told = {hero: list(map(print_expression, ends)) for hero, ends in beside_others(program, structure).items()}
+    assert told == ({1: ["A0(t1)"]} if counts and not sync else {})
 
 
 @pytest.mark.parametrize(

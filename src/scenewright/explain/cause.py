@@ -26,7 +26,7 @@ from scenewright.judge.tolerance import Tolerance
 from scenewright.judge.verdict import Cause, CauseKind, Condition, Verdict
 from scenewright.plan.planner import GOOD
 from scenewright.program.expressions import Temporal, walk
-from scenewright.program.structure import Role, actors_of
+from scenewright.program.structure import Role, actors_of, knots_of, read_structure
 from scenewright.program.types import EGO, Actor, Constraint, Program
 from scenewright.simulate.loop import Run
 from scenewright.simulate.world import World
@@ -115,6 +115,9 @@ def _denied(
 ) -> Finding | None:
     """Return what the ego did that no hero could have mended, with what shows it."""
     alone = {constraint.id: constraint for constraint in failed if actors_of(constraint.formula) == {EGO}}
+    # A moment of both at which heroes miss their side too is nearest to either side: it tells nothing of one alone.
+    theirs = {key for constraint in failed if constraint.id not in alone for key in knots_of(constraint.formula)}
+    of_both = {key for instant in read_structure(program).instants if instant & theirs for key in instant}
     if proof is not None:
         clashes = [clash for clash in proof.clashes if clash.formula is not None]
         told = ", ".join(dict.fromkeys(f'"{clash.words or clash.told}"' for clash in clashes))
@@ -124,7 +127,8 @@ def _denied(
         )
     for condition in missed:
         # Where it starts, and when a trigger comes, is not in its hands alone.
-        if condition.id in alone and condition.kind not in ("initial", "trigger"):
+        its_own = condition.id in alone and condition.kind not in ("initial", "trigger")
+        if its_own and of_both.isdisjoint(knots_of(alone[condition.id].formula)):
             words = in_words(program, alone[condition.id])
             off = "" if condition.error is None else f", off by {abs(condition.error):.2f} {condition.unit}".rstrip()
             return Finding(

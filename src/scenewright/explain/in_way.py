@@ -65,14 +65,13 @@ def hero_in_way(world: World, run: Run) -> InWay | None:
     if slower.max() <= TIGHT.speed_mps:
         return None
     worst, since = int(slower.argmax()), int(np.argmax(slower > TIGHT.speed_mps))
-    away_m = {
-        hero.name: (trace.actors[hero.name].x_m - ego.x_m, trace.actors[hero.name].y_m - ego.y_m)
-        for hero in world.scene.program.heroes
-    }
-    apart_m = {name: np.hypot(*away) for name, away in away_m.items()}
-    eyes = np.cos(ego.heading_rad[since]), np.sin(ego.heading_rad[since])
-    behind = {name: bool(np.dot(eyes, [away[0][since], away[1][since]]) <= 0.0) for name, away in away_m.items()}
-    name = min(apart_m, key=lambda name: (behind[name], float(apart_m[name][since])))
+    apart_m, ahead_m = dict[str, FloatArray](), dict[str, float]()
+    for hero in world.scene.program.heroes:
+        there = trace.actors[hero.name]
+        x_m, y_m, heading = there.x_m - ego.x_m, there.y_m - ego.y_m, float(ego.heading_rad[since])
+        apart_m[hero.name] = np.hypot(x_m, y_m)
+        ahead_m[hero.name] = float(x_m[since] * np.cos(heading) + y_m[since] * np.sin(heading))
+    name = min(apart_m, key=lambda name: (ahead_m[name] < 0.0, float(apart_m[name][since])))
     return InWay(
         name, float(ego.time_s[since]), float(ego.time_s[worst]), float(apart_m[name][worst]),
         float(ego.speed_mps[worst]), float(expected[worst]),

@@ -66,7 +66,7 @@ def _needs(
             continue
         first = motions[meeting.first]
         first_m, first_mps, first_mpss = first.state(time_s)
-        room_m, change_mps = float("inf"), 0.0
+        room_m, change_mps, besides_mpss = float("inf"), 0.0, 0.0
         if meeting.zones_m is not None and first_m < (out_m := meeting.zones_m[0][1] + wanted.clear_m):
             before_m = meeting.zones_m[1][0] - wanted.clear_m - s_m
             if before_m >= -wanted.clear_m and speed_mps * (passes_s(first, out_m) - time_s) > before_m:
@@ -74,8 +74,10 @@ def _needs(
         elif meeting.lane_m is not None and first_m < meeting.lane_m[0][1] and s_m < meeting.lane_m[1][1]:
             room_m = first_m - meeting.offset_m - s_m - VEHICLE_LENGTH_M - wanted.clear_in_lane_m
             change_mps = speed_mps - first_mps
-            if first_mpss < 0.0:  # it may come to stand
+            if 2.0 * max(room_m, _LEAST_ROOM_M) * -first_mpss < first_mps * change_mps:  # met while it still moves
+                besides_mpss = max(0.0, -first_mpss)
+            elif first_mpss < 0.0:  # it may come to stand
                 room_m, change_mps = room_m - 0.5 * first_mps**2 / first_mpss, speed_mps
         if change_mps > 0.0:
-            rate = 0.5 * change_mps**2 / max(room_m, _LEAST_ROOM_M)
+            rate = besides_mpss + 0.5 * change_mps**2 / max(room_m, _LEAST_ROOM_M)
             yield min(max(rate, wanted.accel_mpss if room_m <= _LEAST_ROOM_M else 0.0), BRAKE_MAX_MPSS), change_mps

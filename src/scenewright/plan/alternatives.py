@@ -8,12 +8,13 @@ has no trigger, and all the while has to be somewhere beside others, is not done
 from __future__ import annotations
 
 from dataclasses import replace
+from fractions import Fraction
 
 from scenewright.plan.triggers import beside_others
 from scenewright.program import expressions as ex
 from scenewright.program.evaluate import violation
-from scenewright.program.structure import read_structure
-from scenewright.program.types import Constraint
+from scenewright.program.structure import knots_of, read_structure
+from scenewright.program.types import Constraint, Program
 from scenewright.roads.grounding import Scene
 from scenewright.solve.plan import PlanWorld
 from scenewright.solve.proofs.forms import asserted
@@ -23,12 +24,24 @@ from scenewright.solve.proofs.witness import Witness
 def planned_for(scene: Scene, witness: Witness | None) -> Scene:
     """Return the scene as heroes are planned in it."""
     scene = scene if witness is None else decided(scene, witness)
-    program, structure = scene.program, read_structure(scene.program)
-    more = []
-    for number, (hero, end) in enumerate(beside_others(program, structure)):
-        last = ex.Elapsed(hero, program.actor(hero).sketch.knots[-1])
-        more.append(Constraint(f"until_{number}", ex.Compare(">=", last, end)))
-    return replace(scene, program=replace(program, constraints=(*program.constraints, *more)))
+    over = tuple(
+        Constraint(f"until_{hero}", _is_over(scene.program, hero, ends))
+        for hero, ends in beside_others(scene.program, read_structure(scene.program)).items()
+    )
+    return replace(scene, program=replace(scene.program, constraints=(*scene.program.constraints, *over)))
+
+
+def _is_over(program: Program, hero: int, ends: tuple[ex.Term, ...]) -> ex.Formula:
+    """Return that a hero's last knot is when the last of some ends has come; later only where the program tells it."""
+    last = program.actor(hero).sketch.knots[-1]
+    later = [ex.Arithmetic("-", ex.Elapsed(hero, last), end) for end in ends]
+    not_before, then = ([ex.Compare(sign, each, ex.Number(Fraction(0))) for each in later] for sign in (">=", "=="))
+    if any((hero, last) in knots_of(each.formula) for each in program.constraints):
+        return ex.Logic("and", tuple(not_before))
+    which = range(len(ends))
+    return ex.Logic(
+        "or", tuple(ex.Logic("and", tuple(then[k] if k == n else not_before[k] for k in which)) for n in which)
+    )
 
 
 def decided(scene: Scene, witness: Witness) -> Scene:

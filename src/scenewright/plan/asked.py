@@ -16,8 +16,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scenewright.plan.preferences import preferences_of
-from scenewright.plan.triggers import adapts_until
-from scenewright.program.structure import Structure, actors_of, knots_of, speeds_told_at, stands_at_end
+from scenewright.plan.triggers import adapts_until, beside_others
+from scenewright.program.structure import (
+    Structure,
+    actors_of,
+    knots_of,
+    placed_at,
+    speeds_told_at,
+    stands_at_end,
+)
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
 from scenewright.roads.model import RoadMap
@@ -37,6 +44,7 @@ TIGHT = {"time": 0.1, "place": 0.5, "speed": 0.25, "rate": 0.25, "other": 1.0}
 _SPARE = 0.5  # of a tight tolerance; chosen
 _AROUND_M, _STEP_M = 2.0, 0.5  # between two nodes of a plan a car goes a few metres
 _OF_TOP, _OF_LATERAL = 0.99, 0.97  # between two nodes a speed may be a little higher than at both
+_SETTLED = 1e9  # tight tolerances off: what no plan changes any more is chosen only where all is so
 _LOOKS = 8  # at so many moments of what is left of it, something that has to last is looked at; chosen
 
 
@@ -60,10 +68,11 @@ class Asked:
 
     def __init__(self, scene: Scene, structure: Structure, limits: Mapping[int, Limits]) -> None:
         self.scene, self.structure, self.limits = scene, structure, limits
+        self.beside = frozenset(beside_others(scene.program, structure))
         self.wanted = preferences_of(scene.program.manner)
         self.events = Events(scene, limits, EgoBounds())
         self.lowering = Lowering(self.events)
-        self.looks, self.looked_until = self._make_looks()
+        self.looks, self.stretches = self._make_looks()
         at_triggers = {key for instant in structure.triggers.values() for key in instant}
         constraints = tuple(  # what is asked of the ego alone is nobody's to plan, unless it tells when a trigger comes
             c
@@ -76,12 +85,18 @@ class Asked:
         self.least_s = least_differences(self.events, (each.formula for each in lowered))
         self.of_ego = {self.knot(EGO, name) for name in scene.program.ego.sketch.knots} - {self.events.start}
         self.adapts_until = adapts_until(scene.program, structure, self._behind_ego())
+        self.comes_to = {  # those of them who are to be somewhere at last, when that is over: they do not put it off
+            hero
+            for hero in self.beside
+            if hero in placed_at(scene.program, frozenset({(hero, self.adapts_until[hero])}))
+        }
         self.narrowings = tuple(self.lowering.narrowings)
         self.times = [number_of(time) for time in self.events.times]
         self._scale = np.array([*(TIGHT[unknown.kind] for unknown in self.events.unknowns), 0.0])
         atoms = self._formulas.atoms
         times_of = [self._times_of(atom) for atom in atoms]
         self._orders = [EGO in whose for whose in times_of]
+        self._given = np.array([self._is_given(atom) for atom in atoms], dtype=bool)
         alone = [len(whose) == len(atom.left.terms) == 2 for whose, atom in zip(times_of, atoms, strict=True)]
         looked_at = {number_of(state.place) for (_, at), state in self.events.states.items() if at in self.looks}
         of_looks = [any(not looked_at.isdisjoint(key) for key in atom.left.terms) for atom in atoms]
@@ -118,17 +133,17 @@ class Asked:
         """How many unknowns there are."""
         return len(self.events.unknowns)
 
-    def _make_looks(self) -> tuple[list[int], set[int]]:
-        """Return moments between all others, and up to which ones something is asked for some time of places."""
-        actors, ends = set[int](), set[int]()
+    def _make_looks(self) -> tuple[list[int], set[tuple[int, int]]]:
+        """Return moments between all others, and from and up to which something is asked for some time of places."""
+        actors, stretches = set[int](), set[tuple[int, int]]()
         for node in lasting_places(self.scene.program):
             with suppress(TooHigh):  # told by the lowering
-                ends.add(self.lowering.stretch_of(node)[1])
+                stretches.add(self.lowering.stretch_of(node))
                 actors |= free_actors(node.body)
-        looks = [self.events.instant(f"look{number}") for number in range(_LOOKS if ends else 0)]
+        looks = [self.events.instant(f"look{number}") for number in range(_LOOKS if stretches else 0)]
         for actor, look in product(sorted(actors), looks):
             self.events.state(actor, look)
-        return looks, ends
+        return looks, stretches
 
     def _behind_ego(self) -> dict[int, str]:
         """Return of each hero the first knot that surely does not come before one of the ego's but its first."""
@@ -145,6 +160,10 @@ class Asked:
 
     def trigger(self, hero: int) -> int | None:
         """Return the instant of a hero's trigger, or of what hangs on another's; None where it has none."""
+        return None if hero in self.beside else self.until(hero)
+
+    def until(self, hero: int) -> int | None:
+        """Return the instant up to which a hero adapts; None where it does not."""
         name = self.adapts_until.get(hero)
         return None if name is None else self.knot(hero, name)
 
@@ -169,7 +188,8 @@ class Asked:
         missed = np.where(equal, np.abs(levels), levels)
         # An alternative that does not hold is none where nothing that is still to be planned changes it.
         settled = (missed > 1.0) & ~np.any(changes != 0.0, axis=1)
-        chosen = self._formulas.chosen(np.where(settled, np.inf, missed))
+        errors = np.where(settled, _SETTLED, missed)
+        chosen = self._formulas.chosen(np.where(self._given & (missed > 0.0), np.inf, errors))
         for k in chosen:
             order, spare = (self._orders[k], self._spares[k]) if not equal[k] else (False, 0.0)
             yield Row(float(levels[k]), changes[k], bool(equal[k]), order, spare)
@@ -178,6 +198,17 @@ class Asked:
             if k in chosen and (equal[k] or gradients[k, speed] < 0.0) and np.any(slopes[speed]):
                 short_mps = self.wanted.moves_mps - float(point[speed])
                 yield Row(short_mps / TIGHT["speed"], -slopes[speed] / TIGHT["speed"], equal=False, order=False)
+
+    def _is_given(self, atom: Atom) -> bool:
+        """Whether a comparison says that a look is outside of a stretch of time, or that there is nothing of one.
+
+        What is asked for some time is not done by ending it sooner.
+        """
+        instants = {number: instant for instant, number in enumerate(self.times) if number is not None}
+        if any(len(key) > 1 or key[0] not in instants for key in atom.left.terms if key):
+            return False
+        found = {instants[key[0]] for key in atom.left.terms if key}
+        return not found.isdisjoint(self.looks) or any(found == set(ends) for ends in self.stretches)
 
     def _times_of(self, atom: Atom) -> set[int]:
         """Return whose times a comparison is of, the ego's where they are its alone; nobody's where it is of more.

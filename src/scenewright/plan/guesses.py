@@ -36,7 +36,7 @@ def even_motions(
     told = True
     for hero in asked.scene.program.heroes:
         speed_mps = pace * asked.limits[hero.id].natural_approach_speed_mps
-        instant, at_s = asked.trigger(hero.id), joint_s
+        instant, at_s = asked.until(hero.id), joint_s
         if times.ego_decides(hero):
             at_s = times.instant_s(hero, 0.0, prediction, None)
         elif hero.id not in asked.structure.triggers and instant is not None:  # it hangs on others that came before

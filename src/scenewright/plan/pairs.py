@@ -19,6 +19,7 @@ from scenewright.plan.preferences import Preferences
 from scenewright.plan.rows import Columns, Rows
 from scenewright.plan.shooting import Shot
 from scenewright.program.structure import Structure, placed_at
+from scenewright.program.types import EGO
 from scenewright.roads.bodies import CAR, VEHICLE_LENGTH_M, Body
 from scenewright.roads.conflicts import conflicts, shared_stretches
 from scenewright.roads.grounding import Scene
@@ -60,6 +61,10 @@ class Meeting:
         zones, lane = (None if each is None else (each[1], each[0]) for each in (self.zones_m, self.lane_m))
         return Meeting(self.second, self.first, zones, lane, -self.offset_m)
 
+    def has_begun(self, first_m: float, second_m: float) -> bool:
+        """Whether the first is in the lane that they share, and the second behind it."""
+        return self.lane_m is not None and first_m >= max(self.lane_m[0][0], second_m + self.offset_m)
+
     def late_s(self, motions: Mapping[int, Profile]) -> float:
         """Return for how long (s) both would be in the stretch if the first went first, or how far it is behind (m)."""
         if self.zones_m is not None:
@@ -89,6 +94,11 @@ def meetings_of(scene: Scene) -> tuple[Meeting, ...]:
     """Return every meeting of two heroes of a scene; who goes first in it is not decided."""
     heroes = [hero.id for hero in scene.program.heroes]
     return tuple(meeting for a, b in combinations(heroes, 2) for meeting in _meetings(scene, a, b))
+
+
+def behind_ego(scene: Scene, hero: int) -> tuple[Meeting, ...]:
+    """Return where on a lane a hero may come behind the ego."""
+    return tuple(replace(each, zones_m=None) for each in _meetings(scene, EGO, hero) if each.lane_m is not None)
 
 
 def _meetings(scene: Scene, a: int, b: int) -> Iterator[Meeting]:

@@ -12,11 +12,11 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from itertools import product
 
-from scenewright.motion.profile import Profile
+from scenewright.motion.profile import Profile, chain
 from scenewright.plan.afterwards import goes_on
 from scenewright.plan.foresight import Motions
 from scenewright.plan.guesses import even_motions, meet_later
-from scenewright.plan.pairs import Meeting, in_order, meetings_of, needed
+from scenewright.plan.pairs import Meeting, behind_ego, in_order, meetings_of, needed
 from scenewright.plan.prediction import EgoSample
 from scenewright.plan.problem import Missed, Problem
 from scenewright.plan.shooting import profile_of
@@ -97,6 +97,7 @@ class Planner(Standing):
 
     records: list[Replan] = field(init=False, default_factory=list)
     _meetings: tuple[Meeting, ...] = field(init=False, default=())
+    _behind_ego: Mapping[int, tuple[Meeting, ...]] = field(init=False)
     _steps: int = field(init=False, default=0)
 
     # -- the first plan -----------------------------------------------------------------------------------------------
@@ -109,6 +110,7 @@ class Planner(Standing):
         joint = any(h.id in self.structure.triggers and not self._times.ego_decides(h) for h in self._heroes)
         even, tries = partial(even_motions, self._asked, self._times, prediction, self.witness), list[_Found]()
         meetings = meetings_of(self.scene)
+        self._behind_ego = {hero.id: behind_ego(self.scene, hero.id) for hero in self._heroes}
         placed = bool(meetings) and not meet_later(self.scene.program, self.structure) and even(0.0, 1.0)[1]
         # Who comes slowly can still do either; where nothing tells when, a slow guess would just stay slow.
         for joint_s, pace in product(_JOINT_S if joint else (0.0,), reversed(_PACES) if placed else _PACES):
@@ -211,12 +213,15 @@ class Planner(Standing):
         return record
 
     def _go_on(self, time_s: float) -> None:
-        """Let heroes whose plan is over brake for bends, and keep clear of those that go first."""
+        """Let heroes whose plan is over brake for bends, and keep clear of those that go first, the ego too."""
         profiles, done = dict(self.plan.profiles), False
+        seen_s, ego_m, ego_mps, ego_mpss = self._ego.samples[-1]
+        ego = {EGO: Profile(chain(seen_s, ego_m, ego_mps, [(1.0, ego_mpss, 0)]))}
         for hero in self._heroes:
             if max(profiles[hero.id].knot_times_s.values()) + AFTER_LAST_S <= time_s:
-                caps, done = self._asked.caps[hero.id], True
-                profiles[hero.id] = goes_on(hero.id, profiles, self._meetings, time_s, self._asked.wanted, caps)
+                caps, done, s_m = self._asked.caps[hero.id], True, profiles[hero.id].state(time_s)[0]
+                meetings = (*self._meetings, *(m for m in self._behind_ego[hero.id] if m.has_begun(ego_m, s_m)))
+                profiles[hero.id] = goes_on(hero.id, profiles | ego, meetings, time_s, self._asked.wanted, caps)
         if done:
             self.plan = replace(self.plan, profiles=profiles)
 

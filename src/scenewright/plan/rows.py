@@ -209,7 +209,8 @@ class HeroRows:
         if leg.first.unknown is None and leg.last.unknown is not None:
             self.bounds.add(self.now.time_s + SOONEST_S - last.value(z), -slope, firm)
         comes_to_stand = stands_next and leg.kind is PieceKind.DEC  # how long that takes is in how hard it brakes
-        if instants[1] != asked.trigger(self.hero.id) and not comes_to_stand:
+        counts = instants[1] != asked.until(self.hero.id) or self.hero.id in asked.comes_to
+        if counts and not comes_to_stand:
             usual_s = wanted.stands_s if stands else wanted.lasts_s
             self.costs.add(lasts - usual_s, slope, wanted.stands_weight if stands else wanted.lasts_weight)
 
@@ -273,14 +274,15 @@ class HeroRows:
         if hero not in self.now.heroes and begins_m < shot.s[0] < ends_m:
             # Nobody begins within a junction or beyond its turn, unless the program puts it there.
             self.bounds.add(shot.s[0] - begins_m, shot.d_s[0], wanted.out_of_way_price, wanted.out_of_way_most)
-        number = self._trigger_leg()
+        number, first = self._trigger_leg(), 1 if hero in self.now.heroes else 0
+        if hero in self.now.lanes.apart and (number is not None or hero in self.asked.beside):
+            self._apart(slice(first, shot.first_node[-2 if number is None else number] + 1))
         if number is None:
             return
         last = shot.first_node[number]
         place_m, v_there, d_place, d_v_there = shot.at_node(last)
         zone_m, until_s = self.asked.zones_m.get(hero), float(shot.time[last])
         run_up_m, d_run_up = v_there**2 / (2.0 * wanted.sets_off_mpss), v_there / wanted.sets_off_mpss * d_v_there
-        first = 1 if hero in self.now.heroes else 0
         s_m, v, d_s, d_v = (each[first : last + 1] for each in (shot.s, shot.v, shot.d_s, shot.d_v))
         # Who is to be ahead of the ego beyond that zone drives through it first: before an ego that gives way to it, a
         # hero that waited there would wait for ever.
@@ -295,8 +297,6 @@ class HeroRows:
             beyond_m = s_m + v**2 / (2.0 * wanted.waits_mpss) + run_up_m - place_m
             slopes = d_s + (v / wanted.waits_mpss)[:, None] * d_v + d_run_up - d_place
             self.bounds.add_all(beyond_m[waits], slopes[waits], wanted.waits_price)
-        if hero in self.now.lanes.apart:
-            self._apart(slice(first, last + 1))
         if hero in self.now.lanes.plainly:
             self._plainly(last)
 

@@ -215,7 +215,7 @@ class Standing:
     def _looks(self, time_s: float, moments_s: Mapping[int, float]) -> dict[int, float]:
         """Return when to look at what has to last: evenly, from now to where the last of it ends."""
         asked, last_s = self._asked, time_s
-        for instant in asked.looked_until:
+        for _, instant in asked.stretches:
             constant = asked.events.times[instant].constant
             last_s = max(last_s, moments_s.get(instant, time_s) if constant is None else float(constant))
         return dict(zip(asked.looks, np.linspace(time_s, last_s, len(asked.looks) + 1)[1:].tolist(), strict=True))

@@ -6,7 +6,7 @@ trigger that a hero decides too is for the planning problem itself.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from scenewright.motion.profile import Profile
@@ -134,11 +134,12 @@ def adapts_until(program: Program, structure: Structure, behind_ego: Mapping[int
     """Return the knot up to which each hero adapts: its trigger, or the first that hangs on a hero that adapts.
 
     So whoever brakes 1.5 s after another one began, which does so at a trigger, waits for that as well. And who has to
-    be somewhere beside others all the while adapts up to its last one, and who has no trigger up to the first that is
-    told not to come before a moment of the ego's: one that comes before it is nothing that the ego could be waited for.
+    be somewhere beside others all the while, or until they are somewhere, adapts up to its last one, and who has no
+    trigger up to the first that is told not to come before a moment of the ego's: one that comes before it is nothing
+    that the ego could be waited for.
     """
     found = {hero: structure.trigger_knot(hero) or "" for hero in structure.triggers}
-    found |= {hero: program.actor(hero).sketch.knots[-1] for hero, _ in beside_others(program, structure)}
+    found |= {hero: program.actor(hero).sketch.knots[-1] for hero in beside_others(program, structure)}
     found = {**behind_ego, **found}
     while True:
         more: dict[int, str] = {}
@@ -153,11 +154,16 @@ def adapts_until(program: Program, structure: Structure, behind_ego: Mapping[int
         found |= more
 
 
-def beside_others(program: Program, structure: Structure) -> Iterator[tuple[int, ex.Term]]:
-    """Yield heroes without a trigger that have to be somewhere beside others, each with until when."""
+def beside_others(program: Program, structure: Structure) -> dict[int, tuple[ex.Term, ...]]:
+    """Return heroes without a trigger that have to be somewhere beside others, or until others are, and until when."""
+    found: dict[int, tuple[ex.Term, ...]] = {}
     for node in lasting_places(program):
         actors = free_actors(node.body)
-        yield from ((hero, node.end) for hero in actors - {EGO, *structure.triggers} if len(actors) > 1)
+        others = actors | {each.actor for each in ex.walk(node.end) if isinstance(each, ex.Elapsed)}
+        for hero in actors - {EGO, *structure.triggers}:
+            if others != {hero}:
+                found[hero] = tuple(dict.fromkeys((*found.get(hero, ()), node.end)))
+    return found
 
 
 def _miss(side: LinearCondition, prediction: Profile, instant_s: float) -> float:
