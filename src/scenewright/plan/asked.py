@@ -85,7 +85,7 @@ class Asked:
         self.least_s = least_differences(self.events, (each.formula for each in lowered))
         self.of_ego = {self.knot(EGO, name) for name in scene.program.ego.sketch.knots} - {self.events.start}
         self.adapts_until = adapts_until(scene.program, structure, self._behind_ego())
-        self.comes_to = {  # those of them who are to be somewhere at last, when that is over: they do not put it off
+        self.comes_to = {  # of those beside others, who is to be somewhere once that is over: it is not put off
             hero
             for hero in self.beside
             if hero in placed_at(scene.program, frozenset({(hero, self.adapts_until[hero])}))
@@ -159,7 +159,7 @@ class Asked:
         return self.events.knot(actor, name)
 
     def trigger(self, hero: int) -> int | None:
-        """Return the instant of a hero's trigger, or of what hangs on another's; None where it has none."""
+        """Return the instant of a hero's trigger, or of what hangs on others; None where it has none."""
         return None if hero in self.beside else self.until(hero)
 
     def until(self, hero: int) -> int | None:

@@ -264,8 +264,8 @@ class Standing:
     def _reactive_pieces(self, hero: Actor, trigger: int) -> Iterator[int]:
         """Yield the pieces after the trigger in which a hero answers the ego.
 
-        It stands until something that is compared with the ego's; or it drives on to a moment of the ego's, or has to
-        be somewhere beside it meanwhile.
+        It stands until something that is compared with the ego's; or what it does ends at a moment of the ego's or so
+        long after one, or it has to be somewhere beside it meanwhile.
         """
         knots, pieces, constraints = hero.sketch.knots, hero.sketch.pieces, self.scene.program.constraints
         outcomes = (each.formula for each in constraints if self.structure.roles[each.id] is Role.OUTCOME)
