@@ -30,6 +30,11 @@ def state(asked: Asked, actor: int, knot: str) -> tuple[int, int]:
     return place, speed
 
 
+def number(unknown: int | None) -> int:
+    assert unknown is not None
+    return unknown
+
+
 def rows_at(asked: Asked, values: dict[int, float]) -> list[Row]:
     point = np.zeros(asked.size + 1)
     point[-1] = 1.0
@@ -210,12 +215,11 @@ def test_what_has_to_last_of_places_is_looked_at_between_moments(line: str, look
 def test_within_its_stretch_of_time_what_has_to_last_is_asked_at_a_look(gap_m: float) -> None:
     asked = asked_for("always[A0(t0), A0(t1)] (gap(A0, A1) >= 15)", "W", LANE)
     look, trigger = asked.looks[3], asked.trigger(HERO)
-    place, ego = (number_of(asked.events.states[actor, look].place) for actor in (HERO, EGO))
-    then, ends = asked.times[look], asked.times[trigger or 0]
-    assert None not in (place, ego, then, ends)
+    place, ego = (number(number_of(asked.events.states[actor, look].place)) for actor in (HERO, EGO))
+    then, ends = number(asked.times[look]), number(asked.times[number(trigger)])
     at = {place: 100.0 + gap_m, ego: 100.0, ends: 6.0}
     within, after = (
-        [row for row in rows_at(asked, at | {then: time_s}) if row.slope[place] and row.slope[ego]]  # type: ignore
+        [row for row in rows_at(asked, at | {then: time_s}) if row.slope[place] and row.slope[ego]]
         for time_s in (4.0, 7.0)
     )
     (row,) = within
@@ -229,10 +233,10 @@ def test_what_has_to_last_is_not_done_by_ending_it_sooner() -> None:
     asked = asked_for("always[A1(t1), A1(t2)] (gap(A0, A1) >= 40)", "W", LANE)
     look, (first, last) = asked.looks[-1], next(iter(asked.stretches))
     of = asked.events.states
-    states = {each: [number_of(of[actor, each].place) for actor in (EGO, HERO)] for each in (look, first, last)}
-    at = {asked.times[look]: 6.1, asked.times[first]: 6.0, asked.times[last]: 6.25}
+    states = {each: [number(number_of(of[actor, each].place)) for actor in (EGO, HERO)] for each in (look, first, last)}
+    at = {number(asked.times[k]): at_s for k, at_s in ((look, 6.1), (first, 6.0), (last, 6.25))}
     at |= {place: m for places in states.values() for place, m in zip(places, (100.0, 120.0), strict=True)}
-    rows = rows_at(asked, at)  # type: ignore[arg-type]
+    rows = rows_at(asked, at)
     for each, places in states.items():
         (row,) = [row for row in rows if all(row.slope[place] for place in places)]
         assert row.level > 10.0, each

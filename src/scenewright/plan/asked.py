@@ -84,7 +84,7 @@ class Asked:
         # How much later each instant is at least than another.
         self.least_s = least_differences(self.events, (each.formula for each in lowered))
         self.of_ego = {self.knot(EGO, name) for name in scene.program.ego.sketch.knots} - {self.events.start}
-        self.adapts_until = adapts_until(scene.program, structure, self._behind_ego())
+        self.adapts_until = adapts_until(scene.program, structure, self._after_ego())
         self.comes_to = {  # of those beside others, who is to be somewhere once that is over: it is not put off
             hero
             for hero in self.beside
@@ -145,7 +145,7 @@ class Asked:
             self.events.state(actor, look)
         return looks, stretches
 
-    def _behind_ego(self) -> dict[int, str]:
+    def _after_ego(self) -> dict[int, str]:
         """Return of each hero the first knot that surely does not come before one of the ego's but its first."""
         found = dict[int, str]()
         for hero in self.scene.program.heroes:

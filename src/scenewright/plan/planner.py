@@ -214,16 +214,19 @@ class Planner(Standing):
 
     def _go_on(self, time_s: float) -> None:
         """Let heroes whose plan is over brake for bends, and keep clear of those that go first, the ego too."""
-        profiles, done = dict(self.plan.profiles), False
+        profiles = dict(self.plan.profiles)
+        over = [
+            hero.id for hero in self._heroes if max(profiles[hero.id].knot_times_s.values()) + AFTER_LAST_S <= time_s
+        ]
+        if not over:
+            return
         seen_s, ego_m, ego_mps, ego_mpss = self._ego.samples[-1]
         ego = {EGO: Profile(chain(seen_s, ego_m, ego_mps, [(1.0, ego_mpss, 0)]))}
-        for hero in self._heroes:
-            if max(profiles[hero.id].knot_times_s.values()) + AFTER_LAST_S <= time_s:
-                caps, done, s_m = self._asked.caps[hero.id], True, profiles[hero.id].state(time_s)[0]
-                meetings = (*self._meetings, *(m for m in self._behind_ego[hero.id] if m.has_begun(ego_m, s_m)))
-                profiles[hero.id] = goes_on(hero.id, profiles | ego, meetings, time_s, self._asked.wanted, caps)
-        if done:
-            self.plan = replace(self.plan, profiles=profiles)
+        for hero in over:
+            caps, s_m = self._asked.caps[hero], profiles[hero].state(time_s)[0]
+            meetings = (*self._meetings, *(m for m in self._behind_ego[hero] if m.has_begun(ego_m, s_m)))
+            profiles[hero] = goes_on(hero, profiles | ego, meetings, time_s, self._asked.wanted, caps)
+        self.plan = replace(self.plan, profiles=profiles)
 
     def _made(self, problem: Problem, solution: Solution, prediction: Profile) -> _Found:
         """Return the plan that values stand for, with what was driven before it."""

@@ -326,8 +326,33 @@ def test_what_is_so_until_a_moment_holds_from_the_start(said: str, held: list[st
             "nothing was told of this deed before",
         ),
         ("The hero until it brakes.", "not said what is done"),
+        ("The hero stays 20 m ahead of the ego.", "until when"),
+        ("The hero stays at 10 m/s.", "until when"),
+        ("The hero stays 20 m ahead of the ego and brakes until it stands.", "until when"),
     ],
 )
 def test_until_which_moment_something_is_so_is_told_somewhere(said: str, message: str) -> None:
     with pytest.raises(TranslationError, match=message):
         read(f"{LEAD}{BRAKES}{said}")
+
+
+def test_what_stays_so_is_not_taken_for_what_is_so_at_the_start() -> None:
+    for said in ("The hero stays 20 m ahead of the ego. ", "The hero remains below 10 m/s. "):
+        with pytest.raises(TranslationError, match="until when"):
+            read(f"{LEAD}{said}{BRAKES}")
+
+
+def test_from_when_something_is_so_until_a_later_moment_is_asked() -> None:
+    text = f"{LEAD}{BRAKES}The hero is at least 5 m ahead of the ego until the ego is 10 m before the stop line."
+    (question,) = read(text).questions
+    starts = [hold.start.moment for hold in read(text).holds]
+    later = [hold.start.moment for hold in read(text, {question.slot: question.alternatives[1]}).holds]
+    assert starts == [st.START]
+    assert later == [read(text).deeds_of(1)[-1].ends]
+
+
+def test_a_moment_of_the_ego_until_which_something_is_so_comes_where_it_is_told() -> None:
+    """It is 40 m before the line before it is 30 m before it: told the other way round nothing could happen."""
+    program = compile_story(read(f"{LEAD}The hero is at least 20 m ahead of the ego until the ego is 40 m before the "
+                                 f"stop line. {BRAKES}"))  # fmt: skip
+    assert "A0x(t1) == stop_line - 40" in [print_expression(each.formula) for each in program.constraints]

@@ -171,7 +171,7 @@ class Taken:
             case "quality" if self.peek(-1)[0] != "be":  # "the truck is red", not "5 m heavy"
                 raise self.left_over(chunk)
             case "be" | "possessive" | "quality":
-                clause.notes |= {"has"} if value == "has" else set()
+                clause.notes |= {value} & {"has", "stays"}
             case "mood":
                 clause.notes.add(value)
             case "amount" | "no unit":

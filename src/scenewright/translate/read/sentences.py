@@ -132,6 +132,9 @@ class _Sentence:
 
     def _main(self, items: list[Clause], when: list[Clause] | None, rest: list[Segment]) -> None:
         story = self.story
+        until = any(each.link == "until" for each in rest)
+        if any("stays" in each.notes for each in (*items, *(when or ()))) and (not until or any(i.deed for i in items)):
+            story.refuse("it is not said until when this is so", fix="say it: 'stays 20 m ahead of it until it brakes'")
         items = [each for each in items if each.says_more_than()] or items[:1]
         does = any("shall" in each.notes and not each.says_more_than() for each in items)  # "so does the hero"
         timed = any(each.times for each in when or ())
@@ -145,7 +148,7 @@ class _Sentence:
         if when is not None and not any(each.is_event for each in items[:acts]):
             when, items = [*when, *items[:acts]], items[acts:]  # "when ..., the hero is 20 m before it and brakes"
         first = items[0] if items else Clause(story.quote)
-        if any(each.link == "until" for each in rest) and not any(_beside(each) for each in first.measures):
+        if until and not any(_beside(each) for each in first.measures):
             lasting(first)  # "drives 20 m ahead of the ego until ..." is so, and nothing that it does
         last = last_of(story, first.subject)
         if first.deed is None and last is not None and last.rests and last.ends is None:
@@ -203,14 +206,25 @@ class _Sentence:
         story, conditions = self.story, self.story.conditions(items)
         if not conditions or (until.margins and [op for op, _ in until.margins] != ["=="]):
             story.refuse("it is not clear when this is so")
-        quote, doer, offset = story.quote, items[-1].subject, next((amount for _, amount in until.margins), None)
+        quote, doer, before = story.quote, items[-1].subject, story.doings[-1] if story.doings else None
+        offset = next((amount for _, amount in until.margins), None)
 
         def hold() -> None:
             story.quote, story.doer = quote, doer
-            end = st.Point(self._event_of(until.chunks), offset, until.side == "before")
-            story.holds += [st.Hold("always", st.Point(st.START), end, each, quote) for each in conditions]
+            end = self._event_of(until.chunks)
+            start, begins = st.START, {doing.begins for doing in story.doings}
+            if before is not None and end not in begins:
+                ways = ["from the start", "from when that is over which was told before"]
+                asked = f"From when is this so: {quote.text}"
+                if story.ask(f"until {quote.start}", asked, ways, 0, quote) == ways[1]:
+                    start = story.finish(before)
+            point = st.Point(end, offset, until.side == "before")
+            story.holds += [st.Hold("always", st.Point(start), point, each, quote) for each in conditions]
 
-        story.afterwards.append(hold)  # what is done then may be told later
+        if any((chunk.kind, chunk.value) == ("actor", "ego") for chunk in until.chunks[:1]):
+            hold()  # its moments come in the order in which they are told
+        else:
+            story.afterwards.append(hold)  # what is done then may be told later
 
     def _moment(self, when: list[Clause]) -> int:
         """Return the moment that a sentence tells: one, for all that is said of it."""
