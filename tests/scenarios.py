@@ -10,7 +10,7 @@ from scenewright.program.text import parse_program
 from scenewright.program.types import Program
 from scenewright.roads.grounding import Scene, ground
 from scenewright.roads.load import load_map
-from scenewright.solve.feasibility import EgoBounds, Feasibility, check_feasibility
+from scenewright.solve.feasibility import EgoBounds, Feasibility, Question, check_feasibility
 from scenewright.solve.limits import Limits, limits_on
 
 EXAMPLES = Path(__file__).resolve().parents[1] / "examples"
@@ -258,4 +258,4 @@ def feasibility(
     scene: Scene, structure: Structure | None = None, ego: EgoBounds | None = None, explain: bool = True
 ) -> Feasibility:
     structure = structure or read_structure(scene.program)
-    return check_feasibility(scene, structure, limits_of(scene), ego, explain)
+    return check_feasibility(Question(scene, structure, limits_of(scene), ego or EgoBounds()), explain)

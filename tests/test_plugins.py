@@ -54,8 +54,7 @@ class Plot:
 
 
 def kind(**points: str) -> Kind[Plot]:
-    ours = tuple(EntryPoint(name, value, GROUP) for name, value in points.items())
-    return Kind(GROUP, ours, "plot", "draws", PlotError, {"deep": "no-such-library"})
+    return Kind(GROUP, points, "plot", "draws", PlotError, {"deep": "no-such-library"})
 
 
 def test_parts_of_a_kind_are_listed_with_what_they_miss_and_made_by_name() -> None:

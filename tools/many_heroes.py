@@ -165,7 +165,7 @@ def drive(text: str, ego: str, seed: int = 0) -> Driven:
     scene = ground(program, load_map(program.map_name), {})
     world = World(scene, ego, seed, Rates())
     began_s = time.process_time()
-    planned = first_plan(world, world.predictor)
+    planned = first_plan(world)
     assert planned is not None
     planned_s = time.process_time() - began_s
     heroes, start = Clocked(planned[0]), planned[1]

@@ -38,8 +38,7 @@ if TYPE_CHECKING:
     from scenewright.plan.planner import Attempt
     from scenewright.program.types import Program
     from scenewright.simulate.ego_start import EgoFirstState
-    from scenewright.simulate.heroes import HeroDriver
-    from scenewright.simulate.loop import Run
+    from scenewright.simulate.loop import HeroDriver, Run
     from scenewright.solve.proofs.witness import Witness
     from scenewright.translate.understand import Understanding
 
@@ -81,13 +80,17 @@ def orchestrate(
     from scenewright.simulate.beginning import first_plan, first_plan_of_smt  # `check` has no use for planners
 
     with stages("plan"):
-        planned = first_plan_of_smt(world) if request.planner == "smt" else first_plan(world, world.predictor)
+        planned = first_plan_of_smt(world) if request.planner == "smt" else first_plan(world)
         assert planned is not None
     if isinstance(planned, str):
         result.status, result.no_plan = "gave up", planned
         return result
     result.attempt = planned[2]
-    result.not_held = tuple(not_held(world.scene, result.attempt.plan.profiles, dimension_of, LOOSE.of))
+    result.not_held = tuple(
+        not_held(
+            world.scene, result.attempt.plan.profiles, dimension_of, LOOSE.of, ego_promised=world.ego_bounds.holds_speed
+        )
+    )
     if result.not_held or until == "plan":
         result.status = "gave up" if result.not_held else "success"
         return result
@@ -157,7 +160,6 @@ def _rehearse(
     Every take is a whole closed-loop run that is judged as the first is. What an ego does that answers the hero is not
     known from a drive in which the hero drove otherwise: from the third take on the hero comes more slowly, too.
     """
-    from scenewright.plan.rehearsal import Rehearsed
     from scenewright.simulate.beginning import first_plan, is_timed_by_ego
     from scenewright.simulate.hindsight import drive_profile
     from scenewright.takes import how_next, is_enough, worth
@@ -168,11 +170,10 @@ def _rehearse(
         if learns_nothing or last.status not in ("success", "failure") or last.run is None or is_enough(request, last):
             break
         drive = drive_profile(last.run.trace.actors[world.scene.program.ego.name])
-        predictor = Rehearsed(drive, world.predictor)
         began_mps = math.inf if is_timed_by_ego(world) else drive.state(0.0)[1]
         try:
             with stages("plan"):
-                ways = (first_plan(world, predictor, *wanted) for wanted in how_next(last, take, began_mps))
+                ways = (first_plan(world, drive, *wanted) for wanted in how_next(last, take, began_mps))
                 planned = next((each for each in ways if each is not None), None)
         except KeyboardInterrupt:  # what was driven is kept
             return replace(best, takes=last.takes, status="interrupted")
@@ -278,32 +279,32 @@ def write_result(
 ) -> None:
     """Write the run directory, with its page or without."""
     from scenewright.judge.files import write_verdict
-    from scenewright.simulate.record import Circumstances, write_run
+    from scenewright.simulate.record import write_run
     from scenewright.studio.page import write_page
 
     assert result.run is not None
     assert result.verdict is not None
-    given = frozenset(request.parameters)
     driven = bool(result.attempt)  # a witness is nobody's driving
     ego = (world.policy.name, world.policy.options) if driven else ("none", {})
     if driven and world.simulator.capabilities.drives_ego:
         ego = f"{request.simulator}'s own", {}
-    circumstances = Circumstances(
-        *ego,
-        request.mode if driven else "witness",
-        request.tolerance,
-        request.seed,
-        result.understanding.translator if result.understanding else "none",
-        world.rates if driven else Rates(replan_s=None),
-        frozenset(p.name for p in world.scene.program.parameters if p.name not in given and p.value is None),
-        given,
-        timings_s,
-        result.take,
-        request.simulator if driven else "none",
-        request.planner if driven else "none",
-        result.understanding,
-    )
-    write_run(directory, world.scene, result.run, world.limits, circumstances)
+    rates = world.rates if driven else Rates(replan_s=None)
+    circumstances = {
+        "seed": request.seed,
+        "take": result.take,
+        "mode": request.mode if driven else "witness",
+        "tolerance": request.tolerance,
+        "simulator": request.simulator if driven else "none",
+        "planner": request.planner if driven else "none",
+        "ego": {"name": ego[0], "options": dict(ego[1])},
+        "rates": {
+            "simulation_hz": round(1 / rates.step_s, 6),
+            "replan_hz": round(1 / rates.replan_s, 6) if rates.replan_s else 0,
+        },
+        "timings": {name: round(seconds, 6) for name, seconds in timings_s.items()},
+    }
+    given, understanding = request.parameters, result.understanding
+    write_run(directory, world.scene, result.run, world.limits, circumstances, given, understanding)
     write_verdict(result.verdict, directory / "verdict.json")
     if page:
         write_page(directory)

@@ -29,7 +29,7 @@ class Kind(Generic[Part]):
     Attributes
     ----------
     group, ours
-        Their entry points: those of packages, and our own.
+        Their entry points: those of packages, and our own, by name.
     noun, does
         What messages call one, and what it does; ``scenewright NOUNs`` lists them.
     fault
@@ -39,7 +39,7 @@ class Kind(Generic[Part]):
     """
 
     group: str
-    ours: tuple[EntryPoint, ...]
+    ours: Mapping[str, str]
     noun: str
     does: str
     fault: type[ScenewrightError]
@@ -47,8 +47,11 @@ class Kind(Generic[Part]):
 
     def known(self) -> dict[str, MissingExtraError | None]:
         """Return those that can be named, each with what it misses; nothing is imported for that."""
-        found = points(self.group, self.ours)
+        found = points(self.group, self._our_points())
         return {name: missing_extra(point, self.does, self.libraries) for name, point in found.items()}
+
+    def _our_points(self) -> list[EntryPoint]:
+        return [EntryPoint(name, value, self.group) for name, value in self.ours.items()]
 
     def called(self, name: str) -> Part:
         """Return a new one.
@@ -62,7 +65,7 @@ class Kind(Generic[Part]):
         ScenewrightError
             Of the kind `fault`, where it cannot be imported.
         """
-        point = named(name.lower(), self.group, self.ours)
+        point = named(name.lower(), self.group, self._our_points())
         if point is None:
             raise InputError(
                 f"there is no such {self.noun}",

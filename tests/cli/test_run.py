@@ -158,10 +158,10 @@ def test_gives_up_with_what_the_planner_cannot_hold(command: Command, tmp_path: 
     form = next(form for form in FORMS if form.name == "v of the ego at a time")
     program = tmp_path / "not_to_be_held.scene"
     program.write_text(form.binding_program(), encoding="utf-8")
-    result = command("run", program)
+    result = command("run", program, "--ego", "constant")
     assert result.exit_code == 4
     assert "cannot hold" in result.stderr
-    data = json.loads(command("run", program, "--json").stdout)
+    data = json.loads(command("run", program, "--ego", "constant", "--json").stdout)
     assert (data["status"], data["exit_status"]) == ("gave up", 4)
     assert PROBE in data["tried"]
 

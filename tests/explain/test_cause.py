@@ -200,7 +200,7 @@ A1x(t1) == conflict_point - 12
 always[A1(t0), A1(t2)] (A1v == 15 km/h)
 A1x(t2) == conflict_point + 8
 """
-    result = orchestrate(Request(program, ego="noisy", seed=1, takes=1))
+    result = orchestrate(Request(program, ego="answering:Early", takes=1))
     assert result.run is not None
     found = cause(result)
     assert found.kind == "prediction"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -17,6 +17,7 @@ from scenewright.program.evaluate import term_value
 from scenewright.program.expressions import Compare, Order, PieceRef
 from scenewright.program.resolve import resolve
 from scenewright.program.text import parse_program
+from scenewright.program.types import Program
 
 # BRAKES: ego at 0 with 10 m/s, hero at 35 with 8 m/s; from 7.5 s on the hero brakes at 4, the ego at 2.2 m/s^2.
 MOMENTS = Moments(
@@ -34,19 +35,18 @@ def compared(play: Play, formula: str, moments: Moments = MOMENTS) -> tuple[Case
     return case, found, float(left), float(right)
 
 
-@dataclass(frozen=True)
+@dataclass
 class Motions:
     """The motions of a play themselves, as the evaluator of solutions asks for them."""
 
     play: Play
     case: Case
+    parameters: Mapping[str, float]
+    between_m: float = 4.5
 
     def state(self, actor: int, order: Order, time_s: float) -> float:
         motion = self.play.hero if actor else self.play.ego
         return float(motion.states(np.array([time_s]))[order][0])
-
-    def piece_span_s(self, actor: int, piece: str) -> tuple[float, float]:
-        raise NotImplementedError  # no rate of a piece is asked of plays here
 
     def knot_time_s(self, actor: int, knot: str) -> float:
         return float(MOMENTS.knots[actor, knot])
@@ -54,17 +54,19 @@ class Motions:
     def landmark_m(self, actor: int, name: str, other: int | None) -> float:
         return self.case.landmark_m(name, actor, other)
 
-    def parameter(self, name: str) -> float:
-        return self.case.parameters[name]
+    @property
+    def scene(self) -> Motions:
+        return self
+
+    @property
+    def program(self) -> Program:
+        return self.case.program
 
     def changes_s(self) -> Sequence[float]:
         return ()
 
     def offset_m(self, actor: int, other: int) -> float:
         return self.case.offset_m(actor, other) or 0.0
-
-    def between_m(self, actor: int, other: int) -> float:
-        return 4.5
 
 
 @pytest.mark.parametrize(
@@ -97,7 +99,7 @@ class Motions:
 def test_values_are_those_worked_out_and_those_of_the_other_evaluator(term: str, value: float) -> None:
     case, compare, left, _ = compared(BRAKES, f"{term} <= {term}")
     assert left == pytest.approx(value, abs=1e-3)
-    assert term_value(compare.left, Motions(BRAKES, case)) == pytest.approx(value, abs=1e-3)
+    assert term_value(compare.left, Motions(BRAKES, case, case.parameters)) == pytest.approx(value, abs=1e-3)
 
 
 def test_places_of_two_actors_are_compared_along_one_route() -> None:

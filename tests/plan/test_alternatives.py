@@ -11,7 +11,7 @@ from scenewright.program.evaluate import violation
 from scenewright.program.printer import print_expression
 from scenewright.program.structure import read_structure
 from scenewright.roads.grounding import Scene
-from scenewright.solve.feasibility import check_feasibility
+from scenewright.solve.feasibility import Question, check_feasibility
 from scenewright.solve.limits import limits_on
 from scenewright.solve.plan import PlanWorld
 from scenewright.solve.proofs.witness import Witness
@@ -24,7 +24,7 @@ SLOWLY = "always[A1(t0), A1(t1)] (A1v <= 5.5)"
 def found(line: str) -> tuple[Scene, Witness]:
     scene = scene_of(program("E, N", "t0, go, t1, dec, t2", f"{SYNC}tested: {line}"))
     limits = {actor: limits_on(route, scene.road_map) for actor, route in scene.routes.items()}
-    witness = check_feasibility(scene, read_structure(scene.program), limits).witness
+    witness = check_feasibility(Question(scene, read_structure(scene.program), limits)).witness
     assert witness is not None
     return scene, witness
 

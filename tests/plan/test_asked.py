@@ -10,7 +10,7 @@ from situations import HERO, Array, asked_of, scene_of
 
 from scenewright.plan.asked import TIGHT, Asked, Row, number_of
 from scenewright.program.types import EGO
-from scenewright.solve.tolerances import TIGHT as EXACT
+from scenewright.solve.proofs.forms import TIGHT as EXACT
 from scenewright.units import Dimension
 from stories import program
 

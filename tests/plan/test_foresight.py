@@ -20,7 +20,7 @@ from stories import BRAKES_GAP, YIELDS_DISTANCE, program
 def foresight(text: str, predictor: Predictor) -> Foresight:
     scene = scene_of(text)
     structure = read_structure(scene.program)
-    found = Foresight(scene, structure, linear_conditions(scene, structure), predictor, SIGNS)
+    found = Foresight(scene, structure, linear_conditions(scene, structure), predictor, predictor, SIGNS)
     found.samples.append((0.0, 150.0, 12.0, 0.0))
     return found
 

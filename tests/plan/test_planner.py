@@ -64,7 +64,7 @@ ROWS = [row for row in benchmark_rows() if row.id % 6 == 0]
 def planned(source: str, parameters: tuple[tuple[str, float | str], ...], ego: str) -> tuple[Scene, Attempt, Planner]:
     world, _, answer = begin(Request(source, dict(parameters), ego=ego), Stages(None))
     assert answer == "feasible"
-    found = first_plan(world, world.predictor)
+    found = first_plan(world)
     assert found is not None
     return world.scene, found[2], found[0]
 
@@ -254,7 +254,7 @@ def test_who_is_to_stand_until_its_trigger_stands_and_the_ego_has_to_come() -> N
 def test_what_the_program_asks_for_is_not_given_up_for_room(ego: str) -> None:
     """Whoever is told where and how it brakes does so, even if the ego is not foreseen to answer it."""
     world, _, _ = begin(Request(STOPS_AHEAD, {}, ego=ego), Stages(None))
-    found = first_plan(world, world.predictor)
+    found = first_plan(world)
     assert found is not None
     assert not broken(world.scene, found[2].plan)
 
@@ -299,7 +299,7 @@ gap(A0, A2, t2) == 60
 A2(t2) - A2(t1) == 3
 """
     world = begin(Request(f'scenario "two"\n{text}', ego="constant"), Stages(None))[0]
-    planned = first_plan(world, world.predictor)
+    planned = first_plan(world)
     assert planned is not None
     times = planned[2].plan.profiles[EGO].knot_times_s
     assert times["t1"] <= times["t2"] + 1e-6
@@ -333,7 +333,7 @@ def test_where_ways_have_merged_the_signs_of_that_road_count(hero: str, ego_way:
 def test_whoever_begins_behind_the_ego_does_not_tailgate() -> None:
     rest = "A0(t1) == A1(t1)\nheadway(A1, A0, t1) == 1\nA1v(t1) >= 10\nA1a(dec) == -4\nA1v(t2) == 2"
     world = begin(Request(program("W", "t0, go, t1, dec, t2", rest), ego="idm"), Stages(None))[0]
-    planned = first_plan(world, world.predictor)
+    planned = first_plan(world)
     assert planned is not None
     ego, hero = (planned[2].plan.profiles[actor].state(0.0) for actor in (EGO, HERO))
     room_m = ego[0] - hero[0] - 4.5
@@ -487,3 +487,18 @@ def test_a_second_moment_that_comes_too_soon_is_missed_by_one_who_drives_as_cars
 def test_what_is_to_be_done_so_long_after_the_ego_is_done_then(ego: str) -> None:
     rest = "A0x(t1) == stop_line - 60\nA1(t1) - A0(t1) == 2\nA1x(t1) == conflict_point - 30\nA1v(t2) == 0"
     assert orchestrate(Request(program("E, N", "t0, go, t1, dec, t2", rest), ego=ego, takes=1)).status == "success"
+
+
+@pytest.mark.parametrize("ego", ["constant", "idm"])
+def test_who_is_asked_to_be_faster_than_signs_let_it_is(ego: str) -> None:
+    """Out of a driveway with 20 km/h it is to brake to 9 m/s: what no program asks for is not what it is kept from."""
+    places = "A0x(t1) == conflict_point - 40\nA1x(t1) == conflict_point - 53\nA1x(t2) == conflict_point - 38\n"
+    text = program("S, E", "t0, go, t1, dec, t2", f"A0(t1) == A1(t1)\n{places}A1v(t2) == 9")
+    assert orchestrate(Request(text, ego=ego, takes=1)).status == "success"
+
+
+def test_who_is_fast_at_its_last_knot_brakes_for_the_bend_that_comes_soon() -> None:
+    places = "A0x(t1) == conflict_point - 13\nA1x(t1) == conflict_point - 76\nA1x(t2) == conflict_point - 66\n"
+    rest = f"A0(t1) == A1(t1)\nA0v(t0) == 4.8\n{places}A1v(t2) == 13.6\nA1x(t3) == conflict_point - 40"
+    result = orchestrate(Request(program("W, N", "t0, go, t1, acc, t2, go, t3", rest), ego="constant"))
+    assert result.status == "success"

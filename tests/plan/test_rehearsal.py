@@ -50,14 +50,14 @@ def test_another_speed_or_place_is_left_to_the_base(s_m: float, speed: float) ->
 
 
 class Rushes:
-    """An ego that holds its speed, and for one second before the trigger does not."""
+    """An ego that holds its speed, but where it is not alone not for one second before the trigger."""
 
     def reset(self, start: EgoStart) -> None:
         """Begin."""
 
     def step(self, observation: Observation, dt_s: float) -> float:
         """Return an acceleration (m/s^2)."""
-        return 4.0 if 5.0 < observation.time_s < 6.0 else 0.0
+        return 4.0 if observation.others and 5.0 < observation.time_s < 6.0 else 0.0
 
 
 def test_a_later_take_succeeds_where_the_first_missed_and_is_named(tmp_path: Path) -> None:
@@ -76,3 +76,10 @@ def test_a_success_is_not_taken_again() -> None:
     result = orchestrate(Request(STORIES["stops and goes"], ego="constant", takes=3))
     assert result.status == "success"
     assert result.take == 1
+
+
+@pytest.mark.parametrize(("off_mps", "alike"), [(0.0, True), (0.5, True), (1.5, False)])
+def test_a_drive_that_repeats_is_as_fast_all_along(off_mps: float, alike: bool) -> None:
+    again = Profile(chain(0.0, 0.0, 10.0, [(4.0, 0.0, 0), (1.0, off_mps, 0), (4.0, -2.0, 0), (1.0, -2.0 - off_mps, 0)]))
+    drive = Profile(chain(0.0, 0.0, 10.0, [(4.0, 0.0, 0), (1.0, 0.0, 0), (4.0, -2.0, 0), (1.0, -2.0, 0)]))
+    assert Rehearsed(drive, ConstantSpeed()).repeats(again) is alike

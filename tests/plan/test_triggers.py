@@ -172,3 +172,18 @@ def test_who_has_to_be_beside_others_or_until_they_are_somewhere_adapts_until_it
 def test_without_a_trigger_it_adapts_until_it_comes_behind_a_moment_of_the_ego(line: str, until: str | None) -> None:
     asked = asked_of(scene_of(program("E, N", "t0, go, t1, dec, t2", f"A0x(t1) == conflict_point\n{line}")))
     assert asked.adapts_until == ({} if until is None else {HERO: until})
+
+
+def test_a_moment_of_the_ego_that_comes_before_its_trigger_is_looked_for_before_it() -> None:
+    text = program(
+        "E, N",
+        "t0, go, t1, dec, t2",
+        "A0(t2) == A1(t1)\nA0x(t1) == conflict_point - 60\n"
+        "A0x(t2) == conflict_point - 30\nA1x(t1) == conflict_point - 18\nA1v(t2) == 0",
+    )
+    found, hero = times_of(text.replace("t0, go, t1, go, t2]", "t0, go, t1, go, t2, go, t3]", 1))
+    meets_m = found.scene.landmarks_m[EGO]["conflict_point"]
+    found.ego_began = (meets_m - 100.0, 10.0)
+    even = Profile(chain(0.0, meets_m - 100.0, 10.0, [(20.0, 0.0, 0)]))
+    knots = found.ego_knots_s(0.0, even, {}, {hero.id: 7.0})
+    assert knots == pytest.approx({"t1": 4.0, "t2": 7.0})

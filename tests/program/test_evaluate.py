@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 import pytest
@@ -12,6 +12,7 @@ from scenewright.program.evaluate import violation
 from scenewright.program.expressions import Formula, Order
 from scenewright.program.resolve import resolve
 from scenewright.program.text import parse_program
+from scenewright.program.types import Program
 
 HEAD = "Actor 0:\n- W\n- [t0, go, t1]\nActor 1:\n- W\n- [t0, go, t1]\nConstraints:\n"
 
@@ -32,27 +33,25 @@ class Straight:
             1: (lambda t: 120 + 6 * t - 0.5 * t * t, lambda t: 6 - t, lambda t: -1.0),
         }
     )
+    program: Program = field(default_factory=lambda: parse_program(f"{HEAD}A0(t0) == 0\n"))
+    parameters: Mapping[str, float] = field(default_factory=lambda: {"p_m": 7.0})
+    between_m: float = 4.0
 
     def state(self, actor: int, order: Order, time_s: float) -> float:
         return self.motions[actor][order](time_s)
 
-    def piece_span_s(self, actor: int, piece: str) -> tuple[float, float]:
-        return 0.0, 2.0 + actor
-
     def changes_s(self) -> tuple[float, ...]:
         return ()
 
-    def between_m(self, actor: int, other: int) -> float:
-        return 4.0
+    @property
+    def scene(self) -> Straight:
+        return self
 
     def knot_time_s(self, actor: int, knot: str) -> float:
         return {"t0": 0.0, "t1": 2.0 + actor}.get(knot, math.inf)
 
     def landmark_m(self, actor: int, name: str, other: int | None) -> float:
         return {0: 50.0, 1: 150.0}[actor]
-
-    def parameter(self, name: str) -> float:
-        return 7.0
 
     def offset_m(self, actor: int, other: int) -> float:
         return self.offset if (actor, other) == (0, 1) else -self.offset

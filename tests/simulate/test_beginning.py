@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from pathlib import Path
 from typing import Any
 
 import pytest
 
+from scenewright.drive.protocol import EgoStart, Observation
 from scenewright.judge.tolerance import TIGHT
+from scenewright.motion.profile import Profile, chain
 from scenewright.orchestrate import begin, orchestrate
+from scenewright.plan.rehearsal import Rehearsed
 from scenewright.program.starts import HARD_MPSS
 from scenewright.program.types import EGO
 from scenewright.request import Request, Stages
@@ -52,7 +56,7 @@ def starts_of(world: World) -> list[float]:
 @pytest.mark.parametrize("ego", ["constant", "idm", "dawdler"])
 def test_the_first_start_that_does_is_taken(ego: str) -> None:
     world = world_of(YIELDS_DISTANCE, ego)
-    found = first_plan(world, world.predictor)
+    found = first_plan(world)
     assert found is not None
     planner, start, attempt = found
     assert attempt.is_good
@@ -66,7 +70,7 @@ def test_the_first_start_that_does_is_taken(ego: str) -> None:
 
 def test_an_ego_that_would_leave_no_time_starts_more_slowly() -> None:
     world = world_of(IN_TIME)
-    found = first_plan(world, world.predictor)
+    found = first_plan(world)
     assert found is not None
     _, start, attempt = found
     assert attempt.promises_outcome
@@ -76,15 +80,15 @@ def test_an_ego_that_would_leave_no_time_starts_more_slowly() -> None:
 @pytest.mark.parametrize("slower_than_mps", [8.0, 5.0])
 def test_it_starts_slower_than_it_must(slower_than_mps: float) -> None:
     world = world_of(YIELDS_DISTANCE)
-    found = first_plan(world, world.predictor, slower_than_mps)
+    found = first_plan(world, None, slower_than_mps)
     assert found is not None
     assert found[1].speed_mps < slower_than_mps
 
 
 def test_where_it_cannot_start_so_slowly_there_is_no_plan() -> None:
     world = world_of(YIELDS_DISTANCE)
-    assert first_plan(world, world.predictor, slower_than_mps=0.0) is None
-    assert first_plan(world, world.predictor, slower_than_mps=math.inf) is not None
+    assert first_plan(world, None, slower_than_mps=0.0) is None
+    assert first_plan(world, None, slower_than_mps=math.inf) is not None
 
 
 @pytest.mark.parametrize(
@@ -178,12 +182,12 @@ def test_when_the_steps_are_spent_only_last_resorts_are_tried(monkeypatch: pytes
         return plan_from(world, start, *how)
 
     monkeypatch.setattr(beginning, "_plan_from", noted)
-    first_plan(world, world.predictor)
+    first_plan(world)
     assert len(tried) > 2
     assert not any(start.last_resort for start in tried)
     tried.clear()
     monkeypatch.setattr(beginning, "_MOST_STEPS", 0)
-    first_plan(world, world.predictor)
+    first_plan(world)
     assert [start.last_resort for start in tried[1:]] == [True] * (len(tried) - 1)
 
 
@@ -208,7 +212,7 @@ def test_the_ego_begins_in_nobodys_place() -> None:
         "A0(t1) == A1(t1)\nA0x(t1) == stop_line - 200\nA1x(t1) == stop_line - 235\nA1v(t2) == 3",
     )
     world = world_of(text)
-    planned = first_plan(world, world.predictor)
+    planned = first_plan(world)
     assert planned is not None
     planner, start, attempt = planned
     behind_m = start.s_m - planner.plan.profiles[1].state(0.0)[0]
@@ -220,6 +224,39 @@ def test_no_trigger_comes_before_what_is_to_be_seen_before_it() -> None:
     """21.5 s before its line an ego that drives as people there do is where its road begins."""
     asked = "A0(t1) == A1(t1)\ntta(A0, stop_line, t1) == 21.5\nA1x(t1) == conflict_point - 18\nA1v(t2) == 0\n"
     world = world_of(program("E, N", "t0, go, t1, dec, t2", asked))
-    found = first_plan(world, world.predictor)
+    found = first_plan(world)
     assert found is not None
     assert found[2].plan.profiles[1].knot_times_s["t1"] >= 0.5
+
+
+class Chancy:
+    """Holds its speed for some seconds, and brakes then: another number of them each time."""
+
+    seconds = itertools.count(2)
+
+    def __init__(self, repeats: bool = False) -> None:
+        self.repeats = repeats
+
+    def reset(self, start: EgoStart) -> None:
+        self.brakes_s = 3 if self.repeats else next(self.seconds)
+
+    def step(self, observation: Observation, dt_s: float) -> float:
+        return -2.0 if observation.time_s > self.brakes_s else 0.0
+
+
+@pytest.mark.parametrize(
+    ("ego", "known"),
+    [("constant", False), ("idm", True), ("staller", True), ("Chancy", False), ("Chancy:repeats=true", True)],
+)
+def test_an_ego_is_foreseen_by_a_drive_alone_only_if_it_drives_alike_each_time(ego: str, known: bool) -> None:
+    world = world_of(YIELDS_DISTANCE, f"{__name__}:{ego}" if ego.startswith("Chancy") else ego)
+    start = EgoFirstState(220.0, 9.0)
+    alone, behind = beginning._foreseen(world, start, None)
+    assert behind is world.predictor
+    assert isinstance(alone, Rehearsed) is known
+    if "repeats" in ego:
+        assert alone.predict([(0.0, 220.0, 9.0, 0.0)]).state(5.0)[1] == pytest.approx(5.0, abs=0.1)
+    drive = Profile(chain(0.0, 220.0, 9.0, [(1.0, 0.0, 0)]))
+    assert [each.drive for each in beginning._foreseen(world, start, drive) if isinstance(each, Rehearsed)] == [
+        drive
+    ] * 2

@@ -8,10 +8,10 @@ import pytest
 
 from scenewright.drive.guarded import GuardedPolicy
 from scenewright.drive.loading import load_policy
-from scenewright.drive.protocol import EgoPolicy
+from scenewright.drive.protocol import EgoPolicy, EgoStart, Observation
 from scenewright.orchestrate import orchestrate
 from scenewright.request import Request
-from scenewright.simulate.ego_start import EgoFirstState, ego_starts, usual_lead_s
+from scenewright.simulate.ego_start import EgoFirstState, drives_alone, ego_starts, usual_lead_s
 from stories import Stage, program
 
 REST = """
@@ -208,3 +208,46 @@ def test_who_is_to_stand_until_its_trigger_has_all_the_time() -> None:
     text = program("E, N", "t0, stop, t1, acc, t2", REST.replace("A1v(t2) == 0", "A1v(t2) == 5"))
     on = Stage(text, load_policy("constant").policy)
     assert usual_lead_s(on.scene, on.structure, on.limits, on.conditions) == 8.0
+
+
+@pytest.mark.parametrize("ego", ["idm", "stop-and-go", "noisy"])
+def test_a_drive_alone_is_what_the_policy_does_with_nobody_there(ego: str) -> None:
+    on = stage("A0x(t0) == intersection - 90", ego)
+    start = starts(on)[0]
+    alone = drives_alone(on.ego, start, 0.02)
+    assert alone.state(0.0)[:2] == pytest.approx((start.s_m, start.speed_mps))
+    on.ego.reset(start.s_m, start.speed_mps)
+    for step in range(400):
+        on.ego.advance(on.ego.decide(step * 0.02, (), 0.02), 0.02)
+    assert alone.state(8.0)[:2] == pytest.approx((on.ego.state.s_m, on.ego.state.speed_mps), abs=0.02)
+    assert alone.end_s <= 40.0
+
+
+class Fails:
+    """Holds its speed, and fails after three seconds."""
+
+    def reset(self, start: EgoStart) -> None:
+        """Begin."""
+
+    def step(self, observation: Observation, dt_s: float) -> float:
+        if observation.time_s > 3.0:
+            raise RuntimeError("lost")
+        return 0.0
+
+
+def test_a_drive_alone_ends_where_the_policy_fails() -> None:
+    on = stage("A0x(t0) == intersection - 90", Fails())
+    alone = drives_alone(on.ego, EgoFirstState(200.0, 8.0), 0.02)
+    assert alone.end_s == pytest.approx(3.0, abs=0.11)
+    assert alone.state(2.0)[:2] == pytest.approx((216.0, 8.0))
+
+
+def test_an_ego_that_has_to_slow_down_to_be_so_long_from_a_place_starts_at_last() -> None:
+    """It is 20 s from it as it starts and is to be 25 s: a fault of ours, once, where no other start was left."""
+    initial = "tta(A0, intersection, t0) == 20\nA0v(t0) == 4"
+    text = f"{initial}\nA0(t1) == A1(t1)\ntta(A0, intersection, t1) == 25\nA1x(t1) == conflict_point - 18\nA1v(t2) == 0"
+    story = program("E, N", "t0, go, t1, dec, t2", text)
+    (start,) = starts(Stage(story, load_policy("idm").policy))
+    assert start.last_resort
+    assert start.speed_mps == pytest.approx(4.0)
+    assert orchestrate(Request(story, ego="idm", takes=1)).status == "failure"

@@ -9,7 +9,7 @@ import pytest
 
 from scenewright.plan.planner import Planner
 from scenewright.plan.smt import SmtPlanner
-from scenewright.simulate.heroes import HeroDriver
+from scenewright.simulate.loop import HeroDriver
 from stories import driven
 
 MEMBERS = [name for name in vars(HeroDriver) if not name.startswith("_")]

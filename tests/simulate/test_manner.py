@@ -17,7 +17,7 @@ from scenewright.request import Request
 from scenewright.roads.grounding import Scene
 from scenewright.simulate.loop import Run
 from scenewright.simulate.witnessed import run_of_witness
-from scenewright.solve.feasibility import check_feasibility
+from scenewright.solve.feasibility import Question, check_feasibility
 from stories import STORIES, driven
 
 
@@ -31,8 +31,8 @@ def judged_in_manner(scene: Scene, run: Run, text: str) -> Verdict:
     ("story", "ego", "numbers", "condition"),
     [
         ("stops and goes", "idm", "- stands_s = 2", "hero_standstill"),
-        ("goes first, time", "noisy", "- settled_s = 2\n- settled_mpss = 0.1", "hero_settled"),
-        ("yields, distance", "stop-and-go", "- settled_s = 1\n- settled_mpss = 0.1", "hero_settled"),
+        ("brakes at a rate", "noisy", "- settled_s = 4\n- settled_mpss = 0.1", "hero_settled"),
+        ("goes first, distance", "stop-and-go", "- settled_s = 4\n- settled_mpss = 0.1", "hero_settled"),
     ],
 )
 def test_the_loop_keeps_to_the_manner_asked_for(story: str, ego: str, numbers: str, condition: str) -> None:
@@ -51,6 +51,6 @@ def test_a_witness_is_one_in_the_manner_asked_for() -> None:
     manner = parse_program(f"manner:\n- settled_s = 2\n- settled_mpss = 0.1\n- begins_s = 1\n{YIELDS.text}").manner
     for program in (scene.program, replace(scene.program, manner=manner)):
         asked = replace(scene, program=program)
-        witness = check_feasibility(asked, read_structure(program), limits_of(asked)).witness
+        witness = check_feasibility(Question(asked, read_structure(program), limits_of(asked))).witness
         assert witness is not None
         assert judge(case_of(asked, run_of_witness(asked, limits_of(asked), witness), limits_of(asked))).holds_at(TIGHT)

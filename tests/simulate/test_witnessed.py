@@ -14,14 +14,14 @@ from scenewright.program.text import parse_program
 from scenewright.roads.grounding import ground
 from scenewright.roads.load import load_map
 from scenewright.simulate.witnessed import run_of_witness
-from scenewright.solve.feasibility import check_feasibility
+from scenewright.solve.feasibility import Question, check_feasibility
 
 
 @pytest.mark.parametrize("case", FEASIBLE, ids=lambda case: case.name)
 def test_moves_as_the_witness_says(case: Example) -> None:
     scene = case.scene()
     limits = limits_of(scene)
-    witness = check_feasibility(scene, read_structure(scene.program), limits).witness
+    witness = check_feasibility(Question(scene, read_structure(scene.program), limits)).witness
     assert witness is not None
     run = run_of_witness(scene, limits, witness)
     for actor in scene.program.actors:
@@ -42,7 +42,7 @@ def test_what_follows_ends_before_a_crash() -> None:
     )
     scene = ground(parse_program(text), load_map("t_intersection"))
     limits = limits_of(scene)
-    witness = check_feasibility(scene, read_structure(scene.program), limits).witness
+    witness = check_feasibility(Question(scene, read_structure(scene.program), limits)).witness
     assert witness is not None
     run = run_of_witness(scene, limits, witness)
     assert witness.end_s - 1e-9 <= run.trace.duration_s < witness.end_s + 1.0

@@ -101,17 +101,6 @@ def test_nothing_is_met_after_the_horizon_or_before_the_time_asked_for() -> None
     assert far.first_time({0: slow}, 0.0) is None
 
 
-@given(wander=wandering(15, 3, 5), s_m=tenths(-20, 20), speed=tenths(0, 15))
-def test_a_known_actor_becomes_part_of_the_constant(
-    wander: tuple[Fraction, list[Move]], s_m: Fraction, speed: Fraction
-) -> None:
-    joint = LinearCondition("c1", HERE, 5.0, {0: (1.0, 0.5), 1: (-1.0, 2.0)})
-    alone = joint.given(1, float(s_m), float(speed))
-    state = profile_of(wander).state(1.0)[:2]
-    assert set(alone.weights) == {0}
-    assert alone.value({0: state}) == pytest.approx(joint.value({0: state, 1: (float(s_m), float(speed))}))
-
-
 # -- which constraints are linear -----------------------------------------------------------------------------------
 def scene_of(line: str, route: str = "W") -> Scene:
     return ground(

@@ -142,3 +142,15 @@ def test_an_example_is_held() -> None:
     result = orchestrate(Request(YIELDS.text, YIELDS.parameters, ego="constant"), until="plan")
     assert result.attempt is not None
     assert result.not_held == ()
+
+
+def test_what_is_of_the_ego_alone_is_asked_of_one_that_keeps_its_promise() -> None:
+    scene = scene_with("A0(t1) == A1(t1)\nA1(t1) == 4\nprobe: A0v(t1) == 3\n")
+    for promised in (True, False):
+        found = list(not_held(scene, driven(scene), dimension_of, LOOSE.of, ego_promised=promised))
+        assert bool(found) is promised
+
+
+def test_what_lasts_beside_the_ego_is_seen_by_driving() -> None:
+    assert told("probe: always[A0(t0), A0(t1)] (A0v - A1v >= 3)\n") == []
+    assert told("probe: always[A0(t0), A0(t1)] (A1v >= 12)\n") != []

@@ -14,6 +14,7 @@ from scenewright.program.text import parse_program
 from scenewright.program.types import Parameter
 from scenewright.roads import load_map
 from scenewright.roads.grounding import ground
+from scenewright.solve.feasibility import Question
 from scenewright.solve.parameters import everyday_value, settle
 from scenewright.units import pin
 
@@ -42,7 +43,7 @@ def test_open_parameters_get_values_that_work(tight: bool) -> None:
     )
     program = parse_program(("parameters:\n- end_m in [40, 60]\n" if tight else "") + text)
     scene = ground(program, T)
-    chosen, answer = settle(scene, read_structure(program), limits_of(scene))
+    chosen, answer = settle(Question(scene, read_structure(program), limits_of(scene)))
     assert answer.answer == "feasible"
     assert set(chosen.parameters) == {"ego_m", "near_m", "end_m"}
     assert not chosen.open_parameters()
@@ -56,19 +57,20 @@ def test_open_parameters_get_values_that_work(tight: bool) -> None:
 
 def test_what_no_value_makes_possible_is_proven_for_all() -> None:
     program = parse_program(YIELDS.text + "A1v(t1) == top_mps\ntop_mps >= 50\n")
-    _, answer = settle(ground(program, T), read_structure(program), limits_of(ground(program, T)), explain=False)
+    scene = ground(program, T)
+    _, answer = settle(Question(scene, read_structure(program), limits_of(scene)), explain=False)
     assert (answer.answer, answer.clashes) == ("infeasible", ())
 
 
 def test_a_value_at_the_edge_of_what_is_possible_is_possible() -> None:
     program = parse_program(YIELDS.text + "A1v(t1) == slow_mps\nslow_mps <= 5.5\n")
     scene = ground(program, T)
-    chosen, answer = settle(scene, read_structure(program), limits_of(scene))
+    chosen, answer = settle(Question(scene, read_structure(program), limits_of(scene)))
     assert answer.answer == feasibility(chosen).answer == "feasible"
     assert chosen.parameters["slow_mps"] <= Fraction("5.5")
 
 
 def test_given_parameters_stay_as_they_are() -> None:
     scene = YIELDS.scene()
-    assert settle(scene, read_structure(scene.program), limits_of(scene))[0] is scene
+    assert settle(Question(scene, read_structure(scene.program), limits_of(scene)))[0] is scene
     assert pin(scene.parameters["end_distance_m"]) == Fraction(13, 2)

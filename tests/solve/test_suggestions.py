@@ -86,7 +86,9 @@ def test_suggestions_for_braking_work_and_are_near(speed: Fraction, rate: Fracti
 def answer(text: str) -> str:
     """Return whether it can happen, without asking why not."""
     world, _ = set_up(Request(text, ego="idm"), Stages(None))
-    return check_feasibility(world.scene, world.structure, world.limits, world.ego_bounds, explain=False).answer
+    return check_feasibility(
+        Question(world.scene, world.structure, world.limits, world.ego_bounds), explain=False
+    ).answer
 
 
 def test_every_suggestion_makes_it_possible() -> None:

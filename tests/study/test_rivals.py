@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from scenewright.drive.protocol import EgoStart, Observation
 from scenewright.errors import InputError
 from scenewright.judge.files import judge_run_directory
 from scenewright.judge.tolerance import LOOSE, TIGHT
@@ -96,7 +97,7 @@ def test_what_is_proven_infeasible_is_driven_by_nobody(method: str) -> None:
 @pytest.mark.parametrize("method", [method for method in METHODS if method != "smt"])  # it has a plan of its own
 def test_what_has_no_plan_is_driven_by_nobody(method: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(planner, "_FIRST_STEPS", 0)  # its first guess is no plan
-    result = run_method(method, Request(YIELDS))
+    result = run_method(method, Request(f"{YIELDS}A1v(t0) == 3\n"))
     assert (result.status, result.run) == ("gave up", None)
     assert result.not_held
 
@@ -174,8 +175,19 @@ def test_synchronised_hero_arrives_with_a_steady_ego_and_misses_one_that_stops_a
     assert miss_m(driven("synchronise", "stop-and-go")) > 0.5
 
 
+class Heeds:
+    """Holds its speed where it is alone, and is slower by 2 m/s while anybody else is there."""
+
+    def reset(self, start: EgoStart) -> None:
+        self.keep_mps = start.speed_mps
+
+    def step(self, observation: Observation, dt_s: float) -> float:
+        return 0.5 * (self.keep_mps - (2.0 if observation.others else 0.0) - observation.ego.speed_mps)
+
+
 def test_synchronised_hero_comes_nearer_than_one_on_a_fixed_approach() -> None:
-    assert miss_m(driven("synchronise", "noisy")) < miss_m(driven("trigger-action", "noisy"))
+    ego = f"{__name__}:Heeds"
+    assert miss_m(driven("synchronise", ego)) < miss_m(driven("trigger-action", ego))
 
 
 # -- rejection ------------------------------------------------------------------------------------------------------

@@ -61,7 +61,7 @@ class Recorder:
 def follow(driver: WaypointDriver, ego: str = "constant") -> tuple[Run, FollowingHeroes, Planner]:
     request = Request(YIELDS, ego=ego)
     world, _ = set_up(request, Stages(None))
-    planned = first_plan(world, world.predictor)
+    planned = first_plan(world)
     assert planned is not None
     planner, start, _ = planned
     heroes = FollowingHeroes(planner, world.limits, {HERO: driver}, 0.02)

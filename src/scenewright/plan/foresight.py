@@ -32,8 +32,8 @@ class Foresight:
 
     Attributes
     ----------
-    predictor
-        Foresees it where it follows nobody.
+    predictor, behind
+        Foresee it where it follows nobody, and if it followed nobody where it does.
     signs
         How fast people drive on its way.
     samples
@@ -44,6 +44,7 @@ class Foresight:
     structure: Structure
     conditions: Sequence[LinearCondition]
     predictor: Predictor
+    behind: Predictor
     signs: Signs
     samples: list[EgoSample] = field(default_factory=list)
     _on_lane: dict[int, Clearance] = field(init=False)
@@ -85,10 +86,16 @@ class Foresight:
                 found[hero] = lane
         return found
 
+    def at_first(self) -> Profile:
+        """Return how it will go on, before it is known how heroes move."""
+        led = any(lane.ahead for lane in self._distances.values())
+        return (self.behind if led else self.predictor).predict(self.samples)
+
     def foreseen(self, motions: Motions) -> Profile:
         """Return how it will go on while heroes move so."""
-        prediction = self.predictor.predict(self.samples)
-        for hero, clearance in self.leaders(motions).items():
+        leaders = self.leaders(motions)
+        prediction = (self.behind if leaders else self.predictor).predict(self.samples)
+        for hero, clearance in leaders.items():
             leader = Leader(motions[hero], clearance.offset_m)
             prediction = foresee_follower(prediction, self.samples, leader, self._cruise_mps(leader))
         return prediction
@@ -116,7 +123,7 @@ class Foresight:
     ) -> Answer:
         """Return how it answers a hero by the end of a span: from what it makes of one that moves otherwise."""
         now_s, then_s = span_s
-        alone, (place_m, speed_mps, _) = self.predictor.predict(self.samples), prediction.state(then_s)
+        alone, (place_m, speed_mps, _) = self.behind.predict(self.samples), prediction.state(then_s)
 
         def answered(otherwise: Otherwise) -> tuple[float, float]:
             leader = Leader(otherwise, clearance.offset_m)

@@ -19,7 +19,8 @@ from scenewright.program.types import EGO, Actor, Constraint, PieceKind
 from scenewright.roads.grounding import Scene
 from scenewright.roads.turns import TurnSpan
 from scenewright.solve.limits import MOVING_MPS, ROOM, Limits
-from scenewright.solve.proofs.events import EgoBounds, Events, State, Unknown
+from scenewright.solve.proofs.events import EgoBounds, Events, State
+from scenewright.solve.proofs.forms import compared_dimension
 from scenewright.solve.proofs.lowering import Lowering
 from scenewright.solve.proofs.polynomials import (
     FALSE,
@@ -30,6 +31,7 @@ from scenewright.solve.proofs.polynomials import (
     Formula,
     Named,
     Polynomial,
+    Unknown,
     atom,
     atoms,
     compare,
@@ -37,7 +39,6 @@ from scenewright.solve.proofs.polynomials import (
     polynomial,
     some,
 )
-from scenewright.solve.tolerances import compared_dimension
 from scenewright.units import pin
 
 # What happened is told in 0.1 mm: an equality of that and of what comes may be off by so many tight tolerances.

@@ -106,7 +106,7 @@ class Planner(Standing):
         started = time.perf_counter()
         self._ego.samples, self._times.ego_began = [ego], ego[1:3]
         self.ego_knots_s = {self.scene.program.ego.sketch.knots[0]: 0.0}
-        prediction = self._ego.predictor.predict([ego])
+        prediction = self._ego.at_first()
         joint = any(h.id in self.structure.triggers and not self._times.ego_decides(h) for h in self._heroes)
         even, tries = partial(even_motions, self._asked, self._times, prediction, self.witness), list[_Found]()
         meetings = meetings_of(self.scene)
@@ -132,7 +132,8 @@ class Planner(Standing):
             self._keep(best)
             self._meetings = in_order(meetings, self.scene, self.structure, best.plan.profiles)
         if not (led or placed) or self._meetings != best.meetings:
-            best = self._planned_first(best.plan.profiles[EGO], 0.0, best.plan.profiles)
+            again = self._planned_first(best.plan.profiles[EGO], 0.0, best.plan.profiles)
+            best = again if again.solution.missed.by <= max(GOOD, best.solution.missed.by) else best
         best = self._turned(best)
         self._keep(best)
         self._meetings = needed(best.meetings)
@@ -213,19 +214,23 @@ class Planner(Standing):
         return record
 
     def _go_on(self, time_s: float) -> None:
-        """Let heroes whose plan is over brake for bends, and keep clear of those that go first, the ego too."""
+        """Let heroes past their last knots brake for bends, and keep clear of those that go first, the ego too."""
         profiles = dict(self.plan.profiles)
-        over = [
-            hero.id for hero in self._heroes if max(profiles[hero.id].knot_times_s.values()) + AFTER_LAST_S <= time_s
-        ]
+        over = {
+            hero: last_s
+            for hero in profiles
+            if hero and (last_s := max(profiles[hero].knot_times_s.values())) <= time_s
+        }
         if not over:
             return
         seen_s, ego_m, ego_mps, ego_mpss = self._ego.samples[-1]
         ego = {EGO: Profile(chain(seen_s, ego_m, ego_mps, [(1.0, ego_mpss, 0)]))}
-        for hero in over:
+        for hero, last_s in over.items():
             caps, s_m = self._asked.caps[hero], profiles[hero].state(time_s)[0]
             meetings = (*self._meetings, *(m for m in self._behind_ego[hero] if m.has_begun(ego_m, s_m)))
-            profiles[hero] = goes_on(hero, profiles | ego, meetings, time_s, self._asked.wanted, caps)
+            profiles[hero] = goes_on(
+                hero, profiles | ego, meetings, time_s, self._asked.wanted, caps, time_s < last_s + AFTER_LAST_S
+            )
         self.plan = replace(self.plan, profiles=profiles)
 
     def _made(self, problem: Problem, solution: Solution, prediction: Profile) -> _Found:

@@ -32,6 +32,8 @@ class Preferences:
     natural_share: float = 0.8
     trigger_speed_weight: float = 0.15
     over_limit_weight: float = 0.5
+    # From when on a metre a second over what is posted costs evenly: a program may ask for it.
+    over_sign_most: float = 1.0
     # How long pieces last of which nothing says it, and what a second more or less costs.
     lasts_s: float = 2.0
     lasts_weight: float = 0.3

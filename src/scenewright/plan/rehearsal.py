@@ -50,6 +50,11 @@ class Rehearsed:
         moves = [(lasts_s, accel, 0) for lasts_s, accel in zip(np.diff(at_s).tolist(), accels.tolist(), strict=True)]
         return Profile(chain(time_s, s_m, speed_mps, moves))
 
+    def repeats(self, again: Profile) -> bool:
+        """Whether another drive is alike all along: how one that decides anew each time drove tells nothing."""
+        times_s = np.arange(0.0, self.drive.end_s, _COARSE_S).tolist()
+        return all(abs(self.drive.state(t)[1] - again.state(t)[1]) <= self.alike_mps for t in times_s)
+
     def _when(self, history: Sequence[EgoSample]) -> float | None:
         """Return the moment of the drive that is like now: as long at this place as the ego has been by now."""
         time_s, s_m, speed_mps, _ = history[-1]

@@ -291,7 +291,7 @@ class HeroRows:
             self.bounds.add_all(s_m - zone_m, d_s, wanted.out_of_way_price, wanted.out_of_way_most)
         caps = self.asked.caps[hero]
         most, slope = caps.at(s_m, caps.on_the_way_to(place_m)[0])
-        self.bounds.add_all(v - most, d_v - slope[:, None] * d_s, wanted.price / _TIGHT_SPEED)
+        self.bounds.add_all(v - most, d_v - slope[:, None] * d_s, wanted.price / _TIGHT_SPEED, wanted.over_sign_most)
         if hero in self.now.waits:
             waits = until_s - shot.time[first : last + 1] > v_there / wanted.sets_off_mpss + wanted.waits_s
             beyond_m = s_m + v**2 / (2.0 * wanted.waits_mpss) + run_up_m - place_m

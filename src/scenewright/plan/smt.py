@@ -39,7 +39,7 @@ _EVEN_FIRST = (True, False)
 
 @dataclass(slots=True)
 class SmtPlanner:
-    """Plans and re-plans the heroes of one scene over one run; `simulate.heroes.HeroDriver` says what is asked of it.
+    """Plans and re-plans the heroes of one scene over one run; `simulate.loop.HeroDriver` says what is asked of it.
 
     Attributes
     ----------

@@ -112,11 +112,12 @@ class TriggerTimes:
             for owner, name in self.structure.triggers[hero]:
                 if owner == EGO:
                     knots[name] = instant_s
-        latest = max([time_s, *knots.values()])
-        for condition in self.ego_alone():
-            name = next(iter(condition.moments))[1]
+        order = self.scene.program.ego.sketch.knot_index
+        alone = ((next(iter(condition.moments))[1], condition) for condition in self.ego_alone())
+        for name, condition in sorted(alone, key=lambda each: order(each[0])):
             if name not in knots:
-                arrival = condition.first_time({EGO: prediction}, max(time_s, latest))
+                latest = max([time_s, *(at_s for known, at_s in knots.items() if order(known) < order(name))])
+                arrival = condition.first_time({EGO: prediction}, latest)
                 if arrival is None and self._is_behind(condition, prediction.state(latest)):
                     arrival = latest  # it is past that place before it may be: nothing can come before it any more
                 elif arrival is None and not condition.weights[EGO][0]:

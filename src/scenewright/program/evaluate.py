@@ -7,10 +7,11 @@ leaves: numbers, and for formulas the margin by which they hold. It shares no co
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Protocol
 
 from scenewright.program import expressions as ex
+from scenewright.program.types import Program
 
 _TEMPORAL_STEP_S = 0.02
 _MOST_INSTANTS = 20_000  # of an interval; a longer one is looked at more coarsely
@@ -19,40 +20,46 @@ _EDGE_S, _EDGE_OF_RATES_S = 1e-7, 1e-4
 _SAME = 1e-6  # what is nearer than this (SI) is the same
 
 
-class World(Protocol):
-    """What the values of a program's terms are taken from. Lengths in m, times in s."""
+class Places(Protocol):
+    """What is known of the places of a program on a map, as of a scene. Lengths in m."""
 
-    def state(self, actor: int, order: ex.Order, time_s: float) -> float:
-        """Return position, speed or acceleration of `actor` at an instant."""
-        ...
-
-    def piece_span_s(self, actor: int, piece: str) -> tuple[float, float]:
-        """Return when `actor` begins and ends a piece; infinite where it never does."""
-        ...
-
-    def knot_time_s(self, actor: int, knot: str) -> float:
-        """Return when `actor` passes `knot`; infinite where it never does."""
-        ...
+    @property
+    def program(self) -> Program:
+        """What is evaluated."""
 
     def landmark_m(self, actor: int, name: str, other: int | None) -> float:
         """Return the arc length of a landmark on the route of `actor`."""
-        ...
-
-    def parameter(self, name: str) -> float:
-        """Return a parameter's SI value."""
-        ...
-
-    def changes_s(self) -> Sequence[float]:
-        """Return the instants at which some motion changes, where that is known: bounds are looked at there, too."""
-        ...
 
     def offset_m(self, actor: int, other: int) -> float:
         """Return what to add to the arc length of `other` to compare it with that of `actor`."""
-        ...
 
-    def between_m(self, actor: int, other: int) -> float:
-        """Return how much of a gap between two actors' centres their bodies take up."""
-        ...
+
+class World(Protocol):
+    """What the values of a program's terms are taken from. Lengths in m, times in s.
+
+    Attributes
+    ----------
+    parameters
+        SI values by name.
+    between_m
+        How much of a gap between two actors' centres their bodies take up.
+    """
+
+    parameters: Mapping[str, float]
+    between_m: float
+
+    @property
+    def scene(self) -> Places:
+        """The program on its map."""
+
+    def state(self, actor: int, order: ex.Order, time_s: float) -> float:
+        """Return position, speed or acceleration of `actor` at an instant."""
+
+    def knot_time_s(self, actor: int, knot: str) -> float:
+        """Return when `actor` passes `knot`; infinite where it never does."""
+
+    def changes_s(self) -> Sequence[float]:
+        """Return the instants at which some motion changes, where that is known: bounds are looked at there, too."""
 
 
 def landmark_owner(compare: ex.Compare) -> int | None:
@@ -135,7 +142,8 @@ def _compared(formula: ex.Compare, world: World, now_s: float | None, denied: bo
 
 def _throughout(formula: ex.Compare, state: ex.State, world: World, denied: bool) -> float:
     assert isinstance(state.at, ex.PieceRef)
-    first, last = world.piece_span_s(state.actor, state.at.name)
+    ends = world.scene.program.actor(state.actor).sketch.piece_ends(state.at.name)
+    first, last = (world.knot_time_s(state.actor, knot) for knot in ends)
     if not (math.isfinite(first) and math.isfinite(last)):
         return math.inf
     bare = ex.at_each_moment(formula, state)
@@ -165,7 +173,7 @@ def term_value(term: ex.Term, world: World, now_s: float | None = None) -> float
         case ex.Number(value=value):
             return float(value)
         case ex.ParameterRef(name=name):
-            return world.parameter(name)
+            return world.parameters[name]
         case ex.Landmark():
             return _landmark_m(term, world)
         case ex.Elapsed(actor=actor, knot=knot):
@@ -203,10 +211,10 @@ def _derived(term: ex.Derived, world: World, now_s: float | None) -> float:
     speed = world.state(term.actor, 1, time_s)
     if isinstance(term.target, ex.Landmark):
         return _ratio(_landmark_m(term.target, world) - position, speed)
-    gap = world.state(term.target, 0, time_s) + world.offset_m(term.actor, term.target) - position
+    gap = world.state(term.target, 0, time_s) + world.scene.offset_m(term.actor, term.target) - position
     if term.kind == "gap":
         return gap
-    body = world.between_m(term.actor, term.target)
+    body = world.between_m
     if term.kind == "headway":
         return _ratio(gap - body, speed)
     closing = speed - world.state(term.target, 1, time_s)
@@ -216,14 +224,14 @@ def _derived(term: ex.Derived, world: World, now_s: float | None) -> float:
 def _landmark_m(mark: ex.Landmark, world: World) -> float:
     if mark.actor is None:
         raise ValueError(f"landmark {mark.name} belongs to no one")
-    return world.landmark_m(mark.actor, mark.name, mark.other) + _shift_m(mark, world)
+    return world.scene.landmark_m(mark.actor, mark.name, mark.other) + _shift_m(mark, world)
 
 
 def _shift_m(place: ex.State | ex.Landmark, world: World) -> float:
     """Return what brings a place to the route that it is meant along."""
     if place.frame is None or place.actor is None:
         return 0.0
-    return world.offset_m(place.frame, place.actor)
+    return world.scene.offset_m(place.frame, place.actor)
 
 
 def _ratio(numerator: float, denominator: float) -> float:

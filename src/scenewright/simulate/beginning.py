@@ -6,16 +6,18 @@ What enters: a `World` and how the ego is foreseen. What leaves: the best first 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
+from functools import partial
 from itertools import product
 
 from scenewright.errors import PolicyError
 from scenewright.motion.profile import Profile
 from scenewright.plan.planner import GOOD, Attempt, Planner
-from scenewright.plan.prediction import Predictor
+from scenewright.plan.prediction import ConstantSpeed, Predictor
 from scenewright.plan.preferences import Preferences
+from scenewright.plan.rehearsal import Rehearsed
 from scenewright.program.expressions import Compare, Derived, DerivedKind, Knot, Number
 from scenewright.program.starts import AT_ONCE_S, HARD_MPSS, TAILGATES_S, says_how_near
 from scenewright.program.structure import read_structure
@@ -24,12 +26,12 @@ from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.roads.conflicts import shared_offset_m
 from scenewright.roads.grounding import Scene
 from scenewright.simulate.builtin import BuiltIn
-from scenewright.simulate.ego_start import SHIFTS, EgoFirstState, ego_starts, usual_lead_s
-from scenewright.simulate.heroes import HeroDriver
+from scenewright.simulate.ego_start import SHIFTS, EgoFirstState, drives_alone, ego_starts, usual_lead_s
+from scenewright.simulate.loop import HeroDriver
 from scenewright.simulate.port import Start
 from scenewright.simulate.world import World
 from scenewright.solve.arrival import linear_conditions, of_ego
-from scenewright.solve.feasibility import check_feasibility
+from scenewright.solve.feasibility import Question, check_feasibility
 from scenewright.solve.limits import Limits
 from scenewright.units import pin
 
@@ -40,7 +42,7 @@ _MOST_STEPS = 700
 
 
 def first_plan(
-    world: World, predictor: Predictor, slower_than_mps: float = math.inf, pace: float = 1.0
+    world: World, drive: Profile | None = None, slower_than_mps: float = math.inf, pace: float = 1.0
 ) -> tuple[Planner, EgoFirstState, Attempt] | None:
     """Choose the ego's first state and plan from it; where several states may be chosen, the first that plans well.
 
@@ -48,19 +50,20 @@ def first_plan(
 
     Parameters
     ----------
+    drive
+        How the ego drove in the last take; None in the first.
     pace
         The share of their speed at which heroes come to their triggers.
     """
     limits = {actor: own if actor == EGO else own.at_pace(pace) for actor, own in world.limits.items()}
-    best: _Planned | None = None
-    steps = 0
-    for start in _starts(world, predictor):
+    plan, steps, best = partial(_Planned, world, limits, drive), 0, None
+    for start in _starts(world):
         # An ego that does not hold its speed may still let come about what no plan promises.
         if start.last_resort and best is not None and best.is_good and not world.ego_bounds.holds_speed:
             break
         if start.speed_mps >= slower_than_mps or (steps > _MOST_STEPS and not start.last_resort):
             continue
-        found = _plan_from(world, start, limits, predictor)
+        found = _plan_from(world, start, plan)
         steps += found.attempt.steps
         if best is None or found.rank < best.rank:
             best = found
@@ -69,19 +72,23 @@ def first_plan(
     return (best.planner, best.start, best.attempt) if best is not None else None
 
 
-@dataclass(frozen=True, slots=True)
 class _Planned:
-    """A start, what is planned from it, whom only hard braking saves the ego from, and whether it touches a hero.
+    """What is planned from a start, whom only hard braking saves the ego from, and whether it touches a hero.
 
     And whether a trigger comes too soon for what is to be seen before it.
     """
 
-    planner: Planner
-    start: EgoFirstState
-    attempt: Attempt
-    saved_from: list[int]
-    touches: bool
-    too_soon: bool
+    def __init__(
+        self, world: World, limits: Mapping[int, Limits], drive: Profile | None, scene: Scene, start: EgoFirstState
+    ) -> None:
+        structure, (alone, behind) = read_structure(scene.program), _foreseen(world, start, drive)
+        conditions = linear_conditions(scene, structure)
+        self.start, self.planner = start, Planner(scene, structure, limits, alone, conditions, world.witness, behind)
+        self.attempt = self.planner.begin((0.0, start.s_m, start.speed_mps, start.accel_mpss))
+        seen_s, motions = float(scene.program.manner.settled_s), self.attempt.plan.profiles
+        triggers = {hero: structure.trigger_knot(hero) or "" for hero in structure.triggers}
+        self.too_soon = any(motions[hero].knot_times_s[knot] < seen_s for hero, knot in triggers.items())
+        self.saved_from, self.touches = _saved_and_touched(world, start, self.attempt)
 
     @property
     def is_good(self) -> bool:
@@ -96,40 +103,36 @@ class _Planned:
         return bool(self.saved_from) or self.touches, self.too_soon or not self.attempt.is_good, late_s, missed
 
 
-def _plan_from(world: World, start: EgoFirstState, limits: Mapping[int, Limits], predictor: Predictor) -> _Planned:
+def _plan_from(world: World, start: EgoFirstState, plan: Callable[[Scene, EgoFirstState], _Planned]) -> _Planned:
     """Plan from a start; where the ego would begin too near to somebody and brake hard, from further away.
 
-    Likewise, as far as nothing tells where it is before its outcome, where that would come too soon.
+    Likewise where its outcome would come too soon, as far as neither the ego's start nor the trigger of a hero tells
+    where the ego is.
     """
-    found = _planned(world, world.planned, start, limits, predictor)
-    late_s, surely_s = found.attempt.missed.late_s, Preferences().order_s
-    if late_s > 0.0 and found.attempt.is_good and _is_anywhere(world):
-        later = replace(start, s_m=max(0.0, start.s_m - (late_s + surely_s) * start.speed_mps))
-        found = min(found, _planned(world, world.planned, later, limits, predictor), key=lambda each: each.rank)
+    found, first = plan(world.planned, start), {(EGO, world.scene.program.ego.sketch.knots[0])}
+    late_s, told = found.attempt.missed.late_s, first.union(*world.structure.triggers.values())
+    if late_s > 0.0 and found.attempt.is_good:
+        conditions = linear_conditions(world.scene, world.structure)
+        if not any(EGO in each.weights and each.moments & told for each in conditions):
+            sooner_m = (late_s + Preferences().order_s) * start.speed_mps
+            later = plan(world.planned, replace(start, s_m=max(0.0, start.s_m - sooner_m)))
+            found = min(found, later, key=lambda each: each.rank)
     if not found.saved_from:
         return found
-    apart = _kept_apart(world.planned, found.saved_from, start.speed_mps)
-    return _planned(world, apart, found.start, limits, predictor)
+    return plan(_kept_apart(world.planned, found.saved_from, start.speed_mps), found.start)
 
 
-def _is_anywhere(world: World) -> bool:
-    """Whether neither the ego's start nor the trigger of a hero tells where it is."""
-    first = {(EGO, world.scene.program.ego.sketch.knots[0])}
-    told = first.union(*world.structure.triggers.values())
-    return not any(
-        EGO in each.weights and each.moments & told for each in linear_conditions(world.scene, world.structure)
-    )
+def _foreseen(world: World, start: EgoFirstState, drive: Profile | None) -> tuple[Predictor, Predictor]:
+    """Return how the ego is foreseen where it follows nobody, and where it does.
 
-
-def _planned(
-    world: World, scene: Scene, start: EgoFirstState, limits: Mapping[int, Limits], predictor: Predictor
-) -> _Planned:
-    structure = read_structure(scene.program)
-    planner = Planner(scene, structure, limits, predictor, linear_conditions(scene, structure), world.witness)
-    attempt = planner.begin((0.0, start.s_m, start.speed_mps, start.accel_mpss))
-    seen_s, motions = float(scene.program.manner.settled_s), attempt.plan.profiles
-    too_soon = any(motions[h].knot_times_s[structure.trigger_knot(h) or ""] < seen_s for h in structure.triggers)
-    return _Planned(planner, start, attempt, *_saved_and_touched(world, start, attempt), too_soon)
+    To drive as in the last take, else, unless it follows, as it does alone each time, else as the road has it.
+    """
+    road = alone = world.predictor
+    if not (isinstance(road, ConstantSpeed) or world.simulator.capabilities.drives_ego):
+        once, again = (drives_alone(world.ego, start, world.rates.step_s) for _ in range(2))
+        rehearsed = Rehearsed(once, road)
+        alone = rehearsed if rehearsed.repeats(again) else road
+    return (alone, road) if drive is None else (Rehearsed(drive, alone), Rehearsed(drive, road))
 
 
 def _saved_and_touched(world: World, start: EgoFirstState, attempt: Attempt) -> tuple[list[int], bool]:
@@ -188,7 +191,7 @@ def first_plan_of_smt(world: World) -> tuple[HeroDriver, EgoFirstState, Attempt]
     from scenewright.plan.smt import SmtPlanner
 
     why = ""
-    for start in _starts(world, world.predictor):
+    for start in _starts(world):
         planner = SmtPlanner(world.scene, world.limits, world.ego_bounds)
         if planner.refused:
             return f"the SMT planner cannot take {planner.refused}"
@@ -209,18 +212,25 @@ def is_timed_by_ego(world: World) -> bool:
     return any(each.weights.get(EGO, (0.0, 0.0))[1] and each.moments & triggers for each in conditions)
 
 
-def _starts(world: World, predictor: Predictor) -> Iterator[EgoFirstState]:
+def _starts(world: World) -> Iterator[EgoFirstState]:
     """Yield what the policy would hold, and at last the first state in which an ego that holds its speed makes it.
 
     That is shifted, unless the program says where it begins, for an ego that does not hold its speed to be on time too.
+    Where there is none such, one that is nearer in time to a place than it is to be later: it may slow down.
     """
     told = linear_conditions(world.scene, world.structure)
     conditions = tuple(of_ego(told, world.structure))
     lead_s = usual_lead_s(world.scene, world.structure, world.limits, told)
-    yield from ego_starts(world.scene, world.ego, world.limits[EGO], conditions, lead_s)
+    late = list[EgoFirstState]()
+    for start in ego_starts(world.scene, world.ego, world.limits[EGO], conditions, lead_s):
+        if start.last_resort:
+            late.append(start)
+        else:
+            yield start
     bounds = replace(world.ego_bounds, holds_speed=True)
-    found = check_feasibility(world.scene, world.structure, world.limits, bounds, explain=False)
+    found = check_feasibility(Question(world.scene, world.structure, world.limits, bounds), explain=False)
     if found.witness is None:
+        yield from late
         return
     motion, name = found.witness.profiles[EGO], world.structure.trigger_knot(EGO)
     start = EgoFirstState(*motion.state(0.0)[:2], last_resort=True)
@@ -228,6 +238,6 @@ def _starts(world: World, predictor: Predictor) -> Iterator[EgoFirstState]:
     if name is not None and not any(each.moments == first and each.weights[EGO][0] for each in conditions):
         there_m = motion.state(then_s := motion.knot_times_s[name])[0]
         for _ in range(SHIFTS):
-            foreseen = predictor.predict([(0.0, start.s_m, start.speed_mps, start.accel_mpss)])
-            start = replace(start, s_m=max(0.0, start.s_m + there_m - foreseen.state(then_s)[0]))
+            alone = drives_alone(world.ego, start, world.rates.step_s, then_s)
+            start = replace(start, s_m=max(0.0, start.s_m + there_m - alone.state(then_s)[0]))
     yield start

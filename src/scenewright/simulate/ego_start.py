@@ -8,8 +8,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
+import numpy as np
+
+from scenewright.errors import PolicyError
+from scenewright.motion.profile import Profile, Segment
 from scenewright.program.structure import Structure
 from scenewright.program.types import EGO, PieceKind
 from scenewright.roads.grounding import Scene
@@ -25,7 +31,9 @@ _ROUNDING_S = 1e-6
 # Of a start, until an ego comes to its place when it is told to. Measured: where the road is straight one is exact;
 # chosen for bends.
 SHIFTS = 4
-_STEP_S = 0.05
+_STEP_S, _MOST_STEPS = 0.05, 2400
+# How long an ego is driven alone at most (s), and how finely that is kept; chosen: what is later is planned later.
+_ALONE_S, _STRETCH_S = 40.0, 0.1
 _SLOWEST_MPS = 0.5
 # Of the natural speed, for an ego whose speed the orchestrator may choose: natural first.
 _SLOWER_SHARES = (0.6, 0.35, 0.15)
@@ -45,70 +53,81 @@ class EgoFirstState:
     last_resort: bool = False
 
 
-@dataclass(frozen=True, slots=True)
 class _Way:
     """What the program says of the ego's way.
 
     Attributes
     ----------
-    begins
-        Where it begins; None where that is free.
-    comes
-        Where it comes to first, later; None where that is not told.
+    begins, speed_mps
+        Where it begins and how fast; None where that is free.
+    later
+        Where it is to come to, first things first.
     lead_s
-        How long before that it begins; `is_told` where the program says so.
+        How long before the first of these it begins; `is_told` where the program says so.
     middle_m
         Where it is to be after so long if nothing is told.
+
+    Parameters
+    ----------
+    lead_s
+        How long before its place it begins if nothing tells.
     """
 
-    begins: LinearCondition | None
-    comes: LinearCondition | None
-    lead_s: float
-    is_told: bool
-    middle_m: float
+    def __init__(self, scene: Scene, conditions: tuple[LinearCondition, ...], lead_s: float) -> None:
+        sketch, landmarks = scene.program.ego.sketch, scene.landmarks_m[EGO]
+        first, alone = (EGO, sketch.knots[0]), [c for c in conditions if set(c.weights) == {EGO}]
+        placed, told = [c for c in alone if c.weights[EGO][0]], [c for c in alone if not c.weights[EGO][0]]
 
-    @classmethod
-    def of(cls, scene: Scene, conditions: tuple[LinearCondition, ...], lead_s: float) -> _Way:
-        """Read it off a program's conditions; `lead_s` is how long before its place it begins if nothing tells."""
-        first, landmarks = scene.program.ego.sketch.knots[0], scene.landmarks_m[EGO]
-        alone = [c for c in conditions if set(c.weights) == {EGO} and c.weights[EGO][0]]
-        begins = next((c for c in alone if c.moments == {(EGO, first)}), None)
-        later = [c for c in alone if (EGO, first) not in c.moments]
-        comes = min(later, key=lambda c: _order(scene, c), default=None)
-        least_s, most_s = 0.0, math.inf
-        if comes is not None:
-            least_s, most_s = knot_between_s(scene, min(comes.moments))
-        lead_s, is_told = min(max(lead_s, least_s), most_s), most_s - least_s < _ROUNDING_S
+        def order(condition: LinearCondition) -> int:
+            own = (sketch.knot_index(name) for who, name in condition.moments if who == EGO)
+            return min(own, default=len(sketch.knots))  # what is of a hero's knot comes behind all of the ego's
+
+        self.begins = next((c for c in placed if c.moments == {first}), None)
+        self.speed_mps = next((-c.constant / c.weights[EGO][1] for c in told if c.moments == {first}), None)
+        self.later = sorted((c for c in placed if first not in c.moments), key=order)
+        least_s, most_s = knot_between_s(scene, min(self.later[0].moments)) if self.later else (0.0, math.inf)
+        self.lead_s, self.is_told = min(max(lead_s, least_s), most_s), most_s - least_s < _ROUNDING_S
         ends_m = landmarks["route_end"]
         meets_m = landmarks.get("intersection", ends_m)
         # Two that never part on a road without a junction meet where it ends, and there is no room there for anything.
-        return cls(begins, comes, lead_s, is_told, meets_m if meets_m < ends_m else 0.5 * ends_m)
+        self.middle_m = meets_m if meets_m < ends_m else 0.5 * ends_m
 
     def start_m(self, speed_mps: float) -> float:
         """Return where an ego of this speed starts: as the program says, else so that it comes to its place in time."""
         if self.begins is not None:
             return self.begins.place_m(EGO, speed_mps)
-        there_m = self.middle_m if self.comes is None else self.comes.place_m(EGO, speed_mps)
+        there_m = self.later[0].place_m(EGO, speed_mps) if self.later else self.middle_m
         return max(1.0, there_m - self.lead_s * speed_mps)
 
     def on_time(self, ego: EgoVehicle, start: EgoFirstState) -> EgoFirstState:
         """Return a start from which the policy, alone on the road, comes to its place when the program says."""
-        if self.begins is not None or self.comes is None or not self.is_told:
+        if self.begins is not None or not self.later or not self.is_told:
             return start
         for _ in range(SHIFTS):
-            ego.reset(start.s_m, start.speed_mps)
-            steps = max(1, round(self.lead_s / _STEP_S))
-            for step in range(steps):
-                ego.advance(ego.decide(step * _STEP_S, (), _STEP_S), self.lead_s / steps)
-            late_m = self.comes.place_m(EGO, ego.state.speed_mps) - ego.state.s_m
-            start = replace(start, s_m=max(0.0, start.s_m + late_m))
+            there_m, speed_mps, _ = drives_alone(ego, start, _STEP_S, self.lead_s).state(self.lead_s)
+            start = replace(start, s_m=max(0.0, start.s_m + self.later[0].place_m(EGO, speed_mps) - there_m))
         return start
 
+    def is_past_something(self, start: EgoFirstState) -> bool:
+        """Whether the ego would begin beyond a place, or nearer in time to one, that it is to come to later."""
+        return any(c.value({EGO: (start.s_m, start.speed_mps)}) / c.weights[EGO][0] > 0.0 for c in self.later)
 
-def _order(scene: Scene, condition: LinearCondition) -> int:
-    """Return which of the ego's knots a condition is of; what is of a hero's comes behind all of these."""
-    sketch = scene.program.ego.sketch
-    return min((sketch.knot_index(name) for who, name in condition.moments if who == EGO), default=len(sketch.knots))
+
+def drives_alone(ego: EgoVehicle, start: EgoFirstState, step_s: float, until_s: float = _ALONE_S) -> Profile:
+    """Return how the policy drives from a start to the end of its road with nobody else there, if it does not fail."""
+    ego.reset(start.s_m, start.speed_mps)
+    segments, steps = list[Segment](), max(1, round(_STRETCH_S / step_s))
+    with suppress(PolicyError):  # the run itself will tell
+        for now_s in np.arange(0.0, until_s, steps * step_s).tolist():
+            before, lasts_s = ego.state, min(steps * step_s, until_s - now_s)
+            if before.s_m >= ego.route.path.length_m:
+                break
+            for step in range(steps):
+                ego.advance(ego.decide(now_s + step * step_s, (), step_s), lasts_s / steps)
+            accel_mpss = (ego.state.speed_mps - before.speed_mps) / lasts_s
+            segments.append(Segment(now_s, lasts_s, before.s_m, before.speed_mps, accel_mpss))
+    ended_s = segments[-1].end_s if segments else 0.0
+    return Profile((*segments, Segment(ended_s, 0.0, ego.state.s_m, ego.state.speed_mps, 0.0)))
 
 
 def usual_lead_s(
@@ -146,49 +165,38 @@ def ego_starts(
     """Yield first states that meet the program's conditions at the ego's first knot.
 
     Where the policy leaves its speed to the orchestrator (``constant``), natural speeds first. Else what the policy
-    holds by itself, then slower states by choice, from which it will speed up.
+    holds by itself, then slower states by choice, from which it will speed up. At last the first that is nearer in time
+    to a place than it is to be later: it may slow down.
 
     Parameters
     ----------
     lead_s
         How long before its first place it begins, where the program does not say (see `usual_lead_s`).
     """
-    way = _Way.of(scene, conditions, lead_s)
-    for start in (way.on_time(ego, start) for start in _possible_starts(scene, ego, limits, conditions, way)):
-        if not _is_past_something(scene, conditions, start):
+    way, past = _Way(scene, conditions, lead_s), list[EgoFirstState]()
+    for start in (way.on_time(ego, start) for start in _possible_starts(ego, limits, way)):
+        if way.is_past_something(start):
+            past.append(replace(start, last_resort=True))
+        else:
             yield start
+    yield from past[:1]
 
 
-def _is_past_something(scene: Scene, conditions: tuple[LinearCondition, ...], start: EgoFirstState) -> bool:
-    """Whether the ego would begin beyond a place, or nearer in time to one, that it is to come to later."""
-    first = (EGO, scene.program.ego.sketch.knots[0])
-    return any(
-        c.value({EGO: (start.s_m, start.speed_mps)}) / c.weights[EGO][0] > 0.0
-        for c in conditions
-        if set(c.weights) == {EGO} and first not in c.moments and c.weights[EGO][0]
-    )
-
-
-def _possible_starts(
-    scene: Scene, ego: EgoVehicle, limits: Limits, conditions: tuple[LinearCondition, ...], way: _Way
-) -> Iterator[EgoFirstState]:
+def _possible_starts(ego: EgoVehicle, limits: Limits, way: _Way) -> Iterator[EgoFirstState]:
     """Yield states that meet the conditions at the ego's first knot, wherever that leads."""
-    first_knot = scene.program.ego.sketch.knots[0]
-    initial = [c for c in conditions if c.moments == {(EGO, first_knot)} and set(c.weights) == {EGO}]
-    speed_given = next((c for c in initial if c.weights[EGO][0] == 0.0), None)
 
     def driven(speed_mps: float) -> EgoFirstState:
         """Return the state of one that drives on from there by itself."""
         s_m = way.start_m(speed_mps)
         return EgoFirstState(s_m, speed_mps, _first_acceleration(ego, s_m, speed_mps))
 
-    if speed_given is not None:
-        yield driven(-speed_given.constant / speed_given.weights[EGO][1])
+    if way.speed_mps is not None:
+        yield driven(way.speed_mps)
         return
     guess = way.start_m(limits.natural_turn_speed_mps)
     preferred = ego.policy.preferred_speed_mps(ego.start_at(max(0.0, guess), limits.natural_approach_speed_mps))
-    envelope = ego.policy.envelope
-    if preferred is None and envelope is not None and envelope.holds_speed:
+    holds_speed = ego.policy.envelope is not None and ego.policy.envelope.holds_speed
+    if preferred is None and holds_speed:
         fastest = min(limits.turn_speed_max_mps, limits.approach_speed_max_mps)
         for share in _SPEED_SHARES:
             speed = max(min(share * limits.natural_turn_speed_mps, fastest), MOVING_MPS)
@@ -197,9 +205,7 @@ def _possible_starts(
     steady = _steady(ego, way, preferred or limits.natural_approach_speed_mps)
     # A policy with moods begins a run in its first one, whatever mood it arrived in.
     yield replace(steady, accel_mpss=_first_acceleration(ego, steady.s_m, steady.speed_mps))
-    if envelope is not None and envelope.holds_speed:
-        return  # it has a speed of its own
-    for share in _SLOWER_SHARES:
+    for share in () if holds_speed else _SLOWER_SHARES:  # one that holds its speed has one of its own
         yield driven(max(share * steady.speed_mps, MOVING_MPS))
 
 
@@ -209,27 +215,21 @@ def _steady(ego: EgoVehicle, way: _Way, speed_mps: float) -> EgoFirstState:
     there = way.begins or LinearCondition("", frozenset(), -target, {EGO: (1.0, 0.0)})
     per_metre, per_speed = there.weights[EGO]
     run_up = min(3 * _RUN_UP_M if per_speed else _RUN_UP_M, target - 1.0)
-    if run_up < 1.0:
-        return EgoFirstState(target, speed_mps)
 
-    def beyond() -> float:
-        """Return a number that turns from negative to positive when the ego comes there."""
-        return math.copysign(1.0, per_metre) * there.value({EGO: (ego.state.s_m, ego.state.speed_mps)})
+    def states() -> Iterator[tuple[float, float]]:
+        """Yield, step by step, its speed and a number that turns from negative to positive when it comes there."""
+        ego.reset(target - run_up, speed_mps)
+        for step in range(_MOST_STEPS):
+            now = ego.state
+            yield now.speed_mps, math.copysign(1.0, per_metre) * there.value({EGO: (now.s_m, now.speed_mps)})
+            ego.advance(ego.decide(step * _STEP_S, (), _STEP_S), _STEP_S)
 
-    ego.reset(target - run_up, speed_mps)
-    before = beyond()
-    for step in range(int(120.0 / _STEP_S)):
-        last_mps = ego.state.speed_mps
-        action = ego.decide(step * _STEP_S, (), _STEP_S)
-        ego.advance(action, _STEP_S)
-        after = beyond()
+    for (last_mps, before), (now_mps, after) in pairwise(states()) if run_up >= 1.0 else ():
         if before < 0.0 <= after:
-            share = -before / (after - before)
-            speed = last_mps + share * (ego.state.speed_mps - last_mps)
+            speed = last_mps - before / (after - before) * (now_mps - last_mps)
             if speed < _SLOWEST_MPS:
                 break
-            return EgoFirstState(there.place_m(EGO, speed), speed, ego.state.accel_mps2)
-        before = after
+            return EgoFirstState(there.place_m(EGO, speed), speed)
     return EgoFirstState(target, speed_mps)
 
 

@@ -6,8 +6,7 @@ What enters: the program, the plans in force, and where everybody is. What leave
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from math import isfinite
+from math import inf, isfinite
 
 from scenewright.motion.profile import Profile
 from scenewright.program import expressions as ex
@@ -27,19 +26,13 @@ STANDS_MPS, _MOVES_MPS = 0.1, 0.5  # that of the manner; chosen
 ROUTE_END_M = 3.0  # who hardly moves so near to the end of its road has come to it: policies stop short of it; chosen
 
 
-@dataclass(slots=True)
 class Ending:
     """Watches one run for its end."""
 
-    scene: Scene
-    _told: list[ex.Term] = field(init=False)
-    _meets: dict[int, str] = field(init=False)
-    _values: dict[str, float] = field(init=False)
-    _waits_until_s: float = field(init=False, default=0.0)  # for an ego that stands
-
-    def __post_init__(self) -> None:
-        self._told, self._meets = _told_times(self.scene.program), _meets_ego(self.scene.program)
-        self._values = {name: float(value) for name, value in self.scene.parameters.items()}
+    def __init__(self, scene: Scene) -> None:
+        self.scene, self._told, self._meets = scene, _told_times(scene.program), _meets_ego(scene.program)
+        self._values = {name: float(value) for name, value in scene.parameters.items()}
+        self._waits_until_s = 0.0  # for an ego that stands
 
     def is_now(self, plans: Mapping[int, Profile], now: Snapshot) -> bool:
         """Whether the run is over; to be asked at every step.
@@ -77,8 +70,8 @@ class Ending:
         """Whether a hero is on its way through the junction: which way it went is part of the story."""
         for hero in self.scene.program.heroes:
             places, there = self.scene.routes[hero.id].landmarks, now.actors[hero.id]
-            inside = "junction_end" in places and places["junction_start"] < there.s_m < places["junction_end"]
-            if inside and there.speed_mps > _MOVES_MPS:
+            begins_m, ends_m = (places.get(f"junction_{end}", -inf) for end in ("start", "end"))
+            if begins_m < there.s_m < ends_m and there.speed_mps > _MOVES_MPS:
                 return True
         return False
 

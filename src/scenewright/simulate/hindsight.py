@@ -16,7 +16,7 @@ from scenewright.program.structure import Structure, knots_of
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import TIGHT_TIME_S, LinearCondition, linear_conditions, tight_of
-from scenewright.solve.feasibility import Feasibility, check_feasibility
+from scenewright.solve.feasibility import Feasibility, Question, check_feasibility
 from scenewright.solve.limits import Limits
 from scenewright.trace.model import ActorTrace, Trace
 
@@ -36,8 +36,9 @@ def ego_left_no_room(
     """
     motion = drive_profile(trace.actors[scene.program.ego.name])
     conditions = [c for c in linear_conditions(scene, structure) if set(c.weights) == {EGO} and c.weights[EGO][0]]
-    side = next((c for c in conditions if c.moments == {(EGO, structure.trigger_knot(EGO))}), None)
-    told = {key for c in conditions for key in c.moments} | {(EGO, scene.program.ego.sketch.knots[0])}
+    names, trigger = scene.program.ego.sketch.knots, structure.trigger_knot(EGO) or ""
+    side = next((c for c in conditions if c.moments == {(EGO, trigger)}), None)
+    told = {key for c in conditions for key in c.moments} | {(EGO, names[0])}
     asked = {key for c in scene.program.constraints for key in knots_of(c.formula) if key[0] == EGO}
     if side is None or asked - told:
         return None
@@ -46,9 +47,9 @@ def ego_left_no_room(
         return None
     proof: Feasibility | None = None
     for moment_s in moments:
-        knots = _ego_knots(scene, structure, conditions, motion, moment_s, trace.duration_s)
+        knots = _ego_knots(conditions, motion, {names[0]: 0.0, trigger: moment_s}, names, trace.duration_s)
         drive = Profile(motion.segments, knots)
-        found = check_feasibility(scene, structure, limits, drive=drive, explain=proof is None)
+        found = check_feasibility(Question(scene, structure, limits, drive=drive), explain=proof is None)
         if found.answer != "infeasible":
             return None
         proof = proof or found
@@ -61,31 +62,26 @@ def _moments_at(side: LinearCondition, motion: Profile, end_s: float) -> list[fl
     A proof allows the trigger to be off by a tight tolerance in time to either side of a moment: twice that apart, they
     leave nothing out. The crossings themselves are among them.
     """
-    moments: list[float] = []
-    crossing = side.first_time({EGO: motion}, 0.0)
-    while crossing is not None and crossing <= end_s:
+    since_s, motions, moments = 0.0, {EGO: motion}, list[float]()
+    while (crossing := side.first_time(motions, since_s)) is not None and crossing <= end_s:
         moments.append(crossing)
-        crossing = side.first_time({EGO: motion}, crossing + TIGHT_TIME_S)
-    time_s = 0.0
-    while time_s <= end_s:
-        s_m, speed, _ = motion.state(time_s)
-        if abs(side.value({EGO: (s_m, speed)})) <= tight_of(side, speed):
+        since_s = crossing + TIGHT_TIME_S
+    for time_s in np.arange(0.0, end_s + 1e-9, TIGHT_TIME_S).tolist():
+        state = motion.state(time_s)
+        if abs(side.value({EGO: state})) <= tight_of(side, state[1]):
             moments.append(time_s)
-        time_s += TIGHT_TIME_S
     return sorted(moments)
 
 
 def _ego_knots(
-    scene: Scene,
-    structure: Structure,
     conditions: Sequence[LinearCondition],
     motion: Profile,
-    trigger_s: float,
+    told_s: Mapping[str, float],
+    names: Sequence[str],
     end_s: float,
 ) -> dict[str, float]:
-    """Return when the ego passed its knots, had the trigger come then; long after the end where it never did."""
-    names = scene.program.ego.sketch.knots
-    knots = {names[0]: 0.0, structure.trigger_knot(EGO) or names[0]: trigger_s}
+    """Return when the ego passed all its knots, had it passed some then; long after the end where it never did."""
+    knots = dict(told_s)
     for name in names[1:]:
         condition = next((c for c in conditions if c.moments == {(EGO, name)}), None)
         if name in knots or condition is None:
@@ -93,19 +89,14 @@ def _ego_knots(
         time_s = condition.first_time({EGO: motion}, max(knots.values()))
         if time_s is not None and time_s <= end_s:
             knots[name] = time_s
-    for name in names:
-        knots.setdefault(name, end_s + 60.0)
-    return knots
+    return dict.fromkeys(names, end_s + 60.0) | knots
 
 
 def drive_profile(actor: ActorTrace) -> Profile:
     """Return what an actor drove as a profile with stretches of a tenth of a second."""
-    ends = np.arange(0.0, float(actor.time_s[-1]) + 1e-9, _STRETCH_S)
-    segments = []
-    for begin, end in pairwise(ends):
-        duration = float(end - begin)
-        v0, v1 = actor.speed(float(begin)), actor.speed(float(end))
-        segments.append(Segment(float(begin), duration, actor.position(float(begin)), v0, (v1 - v0) / duration))
-    if not segments:
-        segments.append(Segment(0.0, 0.0, float(actor.s_m[0]), float(actor.speed_mps[0]), 0.0))
+    times = np.arange(0.0, float(actor.time_s[-1]) + 1e-9, _STRETCH_S).tolist()
+    segments = [Segment(0.0, 0.0, float(actor.s_m[0]), float(actor.speed_mps[0]), 0.0)] if len(times) < 2 else []
+    for begin, end in pairwise(times):
+        v0, v1 = actor.speed(begin), actor.speed(end)
+        segments.append(Segment(begin, end - begin, actor.position(begin), v0, (v1 - v0) / (end - begin)))
     return Profile(tuple(segments))

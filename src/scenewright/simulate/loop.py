@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from math import hypot
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
@@ -23,7 +23,7 @@ from scenewright.trace.model import ActorTrace, Trace
 
 if TYPE_CHECKING:
     from scenewright.plan.planner import Replan
-    from scenewright.simulate.heroes import HeroDriver
+    from scenewright.plan.prediction import EgoSample
     from scenewright.solve.plan import Plan
 
 DEFAULT_STEP_S = 0.02
@@ -38,6 +38,31 @@ class Rates:
 
     step_s: float = DEFAULT_STEP_S
     replan_s: float | None = DEFAULT_REPLAN_S
+
+
+class HeroDriver(Protocol):
+    """Whoever drives every hero of a scene through one run: the orchestrator's planner, or a rival of it."""
+
+    @property
+    def plan(self) -> Plan:
+        """The motions in force: each tells its hero's state from now on, and its knots as far as they are known.
+
+        The simulator asks for it anew at every step, so a driver may put another in its place at any time.
+        """
+
+    @property
+    def ego_knots_s(self) -> dict[str, float]:
+        """When the ego passed its knots."""
+
+    @property
+    def records(self) -> list[Replan]:
+        """What each tick came to."""
+
+    def tick(self, time_s: float) -> Replan:
+        """Solve again where that is needed; called at the re-solve rate of the run, but not at its very beginning."""
+
+    def observe(self, sample: EgoSample) -> None:
+        """Take note of the ego's state; called after every step, before the heroes' states at its end are asked for."""
 
 
 @dataclass(slots=True)
@@ -103,14 +128,11 @@ def simulate(
             step += 1
             ego = now.actors[EGO]
             heroes.observe((now.time_s, ego.s_m, ego.speed_mps, ego.accel_mps2))
-    except KeyboardInterrupt:
+    except (KeyboardInterrupt, PolicyError, SimulatorError) as error:
         if not log:
             raise  # nothing was driven, so nothing is kept
-        status = "interrupted"
-    except (PolicyError, SimulatorError) as error:
-        if not log:
-            raise
-        status, fault = "failed", error
+        fault = error if isinstance(error, ScenewrightError) else None
+        status = "failed" if fault is not None else "interrupted"
     findings = [_DRIVES_EGO] if simulator.capabilities.drives_ego else list(start.ego.policy.findings)
     if astray_m >= _NOTED_M:
         findings.append(f"In this simulator heroes were up to {astray_m:.2f} m from where they were to be.")

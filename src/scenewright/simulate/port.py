@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from importlib.metadata import EntryPoint
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from scenewright.errors import SimulatorError
@@ -131,10 +130,5 @@ class Simulator(Protocol):
         """Give back what was opened, if anything was; may be called more than once, and whatever went wrong before."""
 
 
-SIMULATORS: Kind[Simulator] = Kind(
-    GROUP,
-    (EntryPoint("builtin", "scenewright.simulate.builtin:BuiltIn", GROUP),),
-    "simulator",
-    "drives",
-    SimulatorError,
-)
+_OURS = {"builtin": "scenewright.simulate.builtin:BuiltIn"}
+SIMULATORS: Kind[Simulator] = Kind(GROUP, _OURS, "simulator", "drives", SimulatorError)

@@ -15,7 +15,7 @@ from scenewright.roads.grounding import Scene
 from scenewright.simulate.loop import Rates
 from scenewright.simulate.port import SIMULATORS
 from scenewright.simulate.vehicles import EgoVehicle
-from scenewright.solve.feasibility import EgoBounds, Feasibility
+from scenewright.solve.feasibility import EgoBounds, Feasibility, Question
 from scenewright.solve.limits import Limits, Signs, limits_on
 from scenewright.solve.parameters import settle
 from scenewright.solve.proofs.refuters import SOLVERS
@@ -25,18 +25,8 @@ from scenewright.solve.proofs.witness import Witness
 class World:
     """One scene with an ego, ready to be planned and driven again and again.
 
-    Parameters
-    ----------
-    ego, seed
-        Name of the policy with its options, and the seed of its random choices.
-    rates
-        Time step, and time between re-solves.
-    predictor
-        Name of how the ego is foreseen.
-    solver
-        The name of what refutes.
-    simulator
-        The name of what everybody drives in. One that drives the ego itself keeps no promise of the policy's.
+    Policy (with its options), predictor, solver (of what refutes) and simulator are given by name; the seed is that of
+    the policy. A simulator that drives the ego itself keeps no promise of the policy's.
 
     Attributes
     ----------
@@ -84,7 +74,8 @@ class World:
 
     def choose_and_check(self, explain: bool = True) -> Feasibility:
         """Give open parameters values, and ask whether the scenario can happen with them; with `explain`, why not."""
-        self.scene, answer = settle(self.scene, self.structure, self.limits, self.ego_bounds, self.refuter, explain)
+        asked = Question(self.scene, self.structure, self.limits, self.ego_bounds, refuter=self.refuter)
+        self.scene, answer = settle(asked, explain)
         self.witness = answer.witness
         self.planned = planned_for(self.scene, self.witness)
         return answer

@@ -8,8 +8,9 @@ acceleration.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 from scenewright.motion.profile import Profile
 from scenewright.program.expressions import Compare
@@ -18,10 +19,10 @@ from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
 from scenewright.solve.limits import Limits
 from scenewright.solve.proofs.events import EgoBounds, Events
+from scenewright.solve.proofs.forms import TIGHT
 from scenewright.solve.proofs.lowering import Lowering
 from scenewright.solve.proofs.order import least_differences
 from scenewright.solve.proofs.polynomials import ZERO, Monomial, Polynomial, atoms
-from scenewright.solve.tolerances import TIGHT
 
 HORIZON_S = 90.0
 _ANYBODY = Limits(60.0, 60.0, 60.0, 60.0, 60.0, 60.0)
@@ -46,11 +47,13 @@ class LinearCondition:
     constant: float
     weights: Mapping[int, tuple[float, float]]
 
-    def value(self, states: Mapping[int, tuple[float, float]]) -> float:
-        """Return the left side, given ``(position, speed)`` of every actor in it."""
-        total = self.constant
+    def value(self, states: Mapping[int, Sequence[float]]) -> float:
+        """Return the left side, given position, speed and so on of every actor in it."""
+        return self._sum(self.constant, states)
+
+    def _sum(self, total: float, values: Mapping[int, Sequence[float]]) -> float:
         for actor, (per_metre, per_speed) in self.weights.items():
-            total += per_metre * states[actor][0] + per_speed * states[actor][1]
+            total += per_metre * values[actor][0] + per_speed * values[actor][1]
         return total
 
     def place_m(self, actor: int, speed_mps: float) -> float:
@@ -58,28 +61,27 @@ class LinearCondition:
         per_metre, per_speed = self.weights[actor]
         return -(self.constant + per_speed * speed_mps) / per_metre
 
-    def given(self, actor: int, s_m: float, speed_mps: float) -> LinearCondition:
-        """Return the condition on the others where `actor` is in a known state."""
-        per_metre, per_speed = self.weights[actor]
-        rest = {other: weight for other, weight in self.weights.items() if other != actor}
-        constant = self.constant + per_metre * s_m + per_speed * speed_mps
-        return LinearCondition(self.constraint_id, self.moments, constant, rest)
-
     def first_time(self, profiles: Mapping[int, Profile], after_s: float) -> float | None:
-        """Return the first instant from `after_s` on at which the motions meet the condition, None past the horizon."""
-        for start_s, duration_s, states in _common_stretches({a: profiles[a] for a in self.weights}, after_s):
-            elapsed = self._root(duration_s, states)
+        """Return the first instant from `after_s` on at which the motions meet the condition.
+
+        None where that is not before the horizon, after the last of them ends.
+        """
+        motions = {actor: profiles[actor] for actor in self.weights}
+        changes = {t for p in motions.values() for s in p.segments for t in (s.start_s, s.end_s) if t > after_s}
+        breaks = [after_s, *sorted(changes)]
+        for begin, end in pairwise([*breaks, breaks[-1] + HORIZON_S]):
+            # At the break itself rounding may still tell the acceleration that ends there; in the middle is no doubt.
+            middle = 0.5 * (begin + end)
+            states = {a: (*motion.state(begin)[:2], motion.state(middle)[2]) for a, motion in motions.items()}
+            elapsed = self._root(end - begin, states)
             if elapsed is not None:
-                return start_s + elapsed
+                return begin + elapsed
         return None
 
     def _root(self, duration_s: float, states: Mapping[int, tuple[float, float, float]]) -> float | None:
-        c, b, a = self.constant, 0.0, 0.0
-        for actor, (per_metre, per_speed) in self.weights.items():
-            s_m, speed, accel = states[actor]
-            c += per_metre * s_m + per_speed * speed
-            b += per_metre * speed + per_speed * accel
-            a += 0.5 * per_metre * accel
+        """Return when it is met first from given states on, within a time in which nobody's acceleration changes."""
+        c, b = self.value(states), self._sum(0.0, {actor: state[1:] for actor, state in states.items()})
+        a = 0.5 * self._sum(0.0, {actor: (state[2], 0.0) for actor, state in states.items()})
         if abs(c) < 1e-9:
             return 0.0
         if abs(a) < 1e-12:
@@ -139,7 +141,9 @@ def of_ego(conditions: Iterable[LinearCondition], structure: Structure) -> Itera
             actor = next(iter(placed.weights))
             told = len(placed.weights) == 1 and not placed.weights[actor][1] and moment(placed) == moment(condition)
             if told and actor != EGO and alone.weights.get(actor, (0.0, 1.0))[1] == 0.0:
-                alone = alone.given(actor, placed.place_m(actor, 0.0), 0.0)
+                constant = alone.constant + alone.weights[actor][0] * placed.place_m(actor, 0.0)
+                rest = {other: weight for other, weight in alone.weights.items() if other != actor}
+                alone = replace(alone, constant=constant, weights=rest)
         if set(alone.weights) == {EGO}:
             own = frozenset(key for key in moment(condition) if key[0] == EGO)
             yield replace(alone, moments=own or alone.moments)
@@ -168,19 +172,6 @@ def _weights(events: Events, left: Polynomial) -> dict[int, tuple[float, float]]
         per_metre, per_speed = weights.get(actor, (0.0, 0.0))
         weights[actor] = (per_metre, float(factor)) if is_speed else (float(factor), per_speed)
     return weights
-
-
-def _common_stretches(
-    profiles: Mapping[int, Profile], after_s: float
-) -> Iterator[tuple[float, float, dict[int, tuple[float, float, float]]]]:
-    """Yield stretches in which every profile has one acceleration, to the horizon after the last of them ends."""
-    changes = {t for p in profiles.values() for s in p.segments for t in (s.start_s, s.end_s) if t > after_s}
-    breaks = [after_s, *sorted(changes)]
-    for begin, end in zip(breaks, [*breaks[1:], breaks[-1] + HORIZON_S], strict=True):
-        # At the break itself rounding may still tell the acceleration that ends there; in the middle there is no doubt.
-        middle = 0.5 * (begin + end)
-        states = {a: (*profile.state(begin)[:2], profile.state(middle)[2]) for a, profile in profiles.items()}
-        yield begin, end - begin, states
 
 
 def tight_of(condition: LinearCondition, speed_mps: float) -> float:

@@ -1,32 +1,27 @@
 """Asks whether a scenario can happen at all with any ego that keeps its promises; if not, why not and what would help.
 
-What enters: a scene and bounds on everybody's motion. What leaves: a motion that shows that it can; or the clashing
-constraints in the user's words, what the proof rests on, and the nearest values that would do; or that neither was
-found.
+What enters: a question, with bounds on everybody's motion. What leaves: a motion that shows that it can; or the
+clashing constraints in the user's words, what the proof rests on, and the nearest values that would do; or that neither
+was found.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from fractions import Fraction
 from typing import Literal
 
-from scenewright.motion.profile import Profile
 from scenewright.program.printer import print_expression
-from scenewright.program.structure import Structure
 from scenewright.program.types import Program
-from scenewright.roads.grounding import Scene
-from scenewright.solve.limits import Limits
 from scenewright.solve.proofs.decide import Decision, Question, decide
 from scenewright.solve.proofs.events import EgoBounds
-from scenewright.solve.proofs.refuters import SOLVERS, Refuter
 from scenewright.solve.proofs.witness import Broken, Witness
 from scenewright.solve.suggestions import Suggestion, suggest
 from scenewright.translate.lines import named
 from scenewright.units import decimal_fraction
 
-__all__ = ["Clash", "EgoBounds", "Feasibility", "Suggestion", "check_feasibility"]
+__all__ = ["Clash", "EgoBounds", "Feasibility", "Question", "Suggestion", "check_feasibility"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,43 +71,30 @@ class Feasibility:
         return {
             "answer": self.answer,
             "reason": self.reason,
-            "clashes": [{"id": c.id, "told": c.told, "formula": c.formula, "words": c.words} for c in self.clashes],
-            "suggestions": [
-                {"what": s.what, "value": s.value, "nearest": s.nearest, "unit": s.unit} for s in self.suggestions
-            ],
+            "clashes": [asdict(each) for each in self.clashes],
+            "suggestions": [asdict(each) for each in self.suggestions],
         }
 
 
-def check_feasibility(
-    scene: Scene,
-    structure: Structure,
-    limits: Mapping[int, Limits],
-    ego: EgoBounds | None = None,
-    explain: bool = True,
-    drive: Profile | None = None,
-    refuter: Refuter | None = None,
-) -> Feasibility:
-    """Decide whether any ego within `ego` and any heroes within `limits` can do what the program asks.
+def check_feasibility(question: Question, explain: bool = True) -> Feasibility:
+    """Decide whether any ego and any heroes within the bounds of a question can do what its program asks.
 
     Open parameters are free within their ranges. With `explain` an infeasible answer comes with clashes and
-    suggestions. With `drive` the ego is not any, but drives just so: infeasible then means that no hero could have met
-    all conditions against this drive. (Another hero might have made the ego drive differently.) What refutes is
-    `refuter`, or z3 where none is given; one that is not exact proves nothing.
+    suggestions. Where the question is of one drive of the ego, infeasible means that no hero could have met all
+    conditions against that. (Another hero might have made the ego drive differently.)
     """
-    question = Question(
-        scene, structure, limits, ego or EgoBounds(), drive=drive, refuter=refuter or SOLVERS.called("z3")
-    )
+    scene = question.scene
     decision = decide(question, explain=explain)
     if decision.witness is not None:
-        found = {each.name: decision.witness.parameters[each.name] for each in scene.open_parameters()}
-        parameters = {name: decimal_fraction(f"{value:.9f}") for name, value in found.items()}
+        found = ((each.name, decision.witness.parameters[each.name]) for each in scene.open_parameters())
+        parameters = {name: decimal_fraction(f"{value:.9f}") for name, value in found}
         return Feasibility("feasible", parameters=parameters, witness=decision.witness)
     if decision.answer == "undecided":
         return Feasibility("undecided", reason=_reason(scene.program, decision))
     if not explain:
         return Feasibility("infeasible")
-    clashes = tuple(_clash(scene.program, origin) for origin in decision.core)
-    suggestions = () if drive else tuple(suggest(question, set(decision.core)))
+    clashes = tuple(clash(scene.program, origin) for origin in decision.core)
+    suggestions = () if question.drive else tuple(suggest(question, set(decision.core)))
     return Feasibility("infeasible", clashes, suggestions)
 
 
@@ -138,10 +120,11 @@ def _amiss_in_words(program: Program, broken: Broken) -> str:
             return f"{other} and {name} touch"
         case "law":
             return f"{name} moves as nobody can"
-    return f"this does not hold: {_clash(program, broken.what)}"
+    return f"this does not hold: {clash(program, broken.what)}"
 
 
-def _clash(program: Program, origin: str) -> Clash:
+def clash(program: Program, origin: str) -> Clash:
+    """Return a constraint, by id, or a law as the user knows it."""
     try:
         constraint = program.constraint(origin)
     except KeyError:

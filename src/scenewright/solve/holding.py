@@ -16,8 +16,9 @@ from scenewright.program.evaluate import term_value, violation
 from scenewright.program.structure import KnotKey, Role, actors_of, knots_of, read_structure
 from scenewright.program.types import EGO, Constraint, Program
 from scenewright.roads.grounding import Scene
+from scenewright.solve.feasibility import Clash, clash
 from scenewright.solve.plan import PlanWorld
-from scenewright.translate.lines import named
+from scenewright.solve.proofs.forms import free_actors
 from scenewright.units import SI_SYMBOL, Dimension
 
 _ROUNDED = 1e-2  # what a plan may be off by where no tolerance is given for what is compared
@@ -28,16 +29,14 @@ class NotHeld:
     """A constraint that a plan breaks, and by how much: in `unit`, infinite where no number says it."""
 
     constraint: Constraint
-    told: str
-    words: str | None
+    told: Clash
     by: float
     unit: str
 
     def __str__(self) -> str:
-        words = f'  ("{self.words}")' if self.words else ""
         off = f", off by {self.by:.3g} {self.unit}".rstrip() if math.isfinite(self.by) else ""
         whose = "; the ego is nobody's to hold to it" if actors_of(self.constraint.formula) == {EGO} else ""
-        return f"{self.told}{words}{off}{whose}"
+        return f"{self.told}{off}{whose}"
 
 
 def not_held(
@@ -45,23 +44,25 @@ def not_held(
     profiles: Mapping[int, Profile],
     dimension_of: Callable[[ex.Compare], Dimension | None],
     allowed: Callable[[Dimension | None], float],
+    *,
+    ego_promised: bool = True,
 ) -> Iterator[NotHeld]:
     """Yield the constraints that motions break by more than is `allowed` of the dimension of what they compare.
 
     Who comes before the ego is not asked about: it may still give way. Nor is what speaks of a knot of the ego that
     nobody foresees, or that nothing but its own state there tells, or of how the ego and another are to each other at
-    a trigger: the run brings that about.
+    a trigger, or for some time: the run brings that about. What is the ego's alone is asked of one that has promised to
+    drive as foreseen: what any other does instead is seen by driving.
     """
     roles = read_structure(scene.program).roles
     parameters = {name: float(value) for name, value in scene.parameters.items()}
-    world = PlanWorld(scene, profiles, parameters)
-    passed = Profile(
-        profiles[EGO].segments, {**profiles[EGO].knot_times_s, **dict(_passed_s(scene, profiles[EGO], world))}
-    )
+    ego, world = profiles[EGO], PlanWorld(scene, profiles, parameters)
+    passed = Profile(ego.segments, ego.knot_times_s | dict(_passed_s(scene, ego, world)))
     world = PlanWorld(scene, {**profiles, EGO: passed}, parameters)
     open_knots = {(EGO, name) for name in scene.program.ego.sketch.knots[1:]} - _told(scene.program)
     for constraint in scene.program.constraints:
-        if actors_of(constraint.formula) == {EGO} and set(knots_of(constraint.formula)) & open_knots:
+        of_ego = actors_of(constraint.formula) == {EGO}
+        if of_ego and (not ego_promised or set(knots_of(constraint.formula)) & open_knots):
             continue
         if roles[constraint.id] is Role.TRIGGER and actors_of(constraint.formula) > {EGO}:
             continue
@@ -73,8 +74,7 @@ def not_held(
             if not by <= max(_ROUNDED, *map(allowed, dimensions)):
                 dimension = dimensions.pop() if len(dimensions) == 1 else None
                 unit = SI_SYMBOL[dimension] if dimension else ""
-                told = named(scene.program, constraint)
-                yield NotHeld(constraint, told, scene.program.words_of(constraint), by, unit)
+                yield NotHeld(constraint, clash(scene.program, constraint.id), by, unit)
                 break
 
 
@@ -112,16 +112,21 @@ def _passed_s(scene: Scene, ego: Profile, world: PlanWorld) -> Iterator[tuple[st
 
 
 def _asked(formula: ex.Formula) -> Iterator[ex.Formula]:
-    """Yield the parts that all must hold, without those in which it matters who comes before the ego."""
+    """Yield the parts that all must hold, without those that a run brings about."""
     if isinstance(formula, ex.Logic) and formula.operator == "and":
         for operand in formula.operands:
             yield from _asked(operand)
-    elif not any(isinstance(node, ex.Compare) and _is_order(node) for node in ex.walk(formula)):
+    elif not any(_is_order(node) or _lasts_beside_ego(node) for node in ex.walk(formula)):
         yield formula
 
 
-def _is_order(formula: ex.Compare) -> bool:
-    """Whether a comparison says of moments, the ego's among them, that one comes before another."""
-    if formula.operator == "==" or EGO not in actors_of(formula):
+def _is_order(node: ex.Node) -> bool:
+    """Whether it says of moments, the ego's among them, that one comes before another."""
+    if not isinstance(node, ex.Compare) or node.operator == "==" or EGO not in actors_of(node):
         return False
-    return not any(isinstance(node, ex.State | ex.Derived) for node in ex.walk(formula))
+    return not any(isinstance(each, ex.State | ex.Derived) for each in ex.walk(node))
+
+
+def _lasts_beside_ego(node: ex.Node) -> bool:
+    """Whether it says how the ego and another are to each other for some time."""
+    return isinstance(node, ex.Temporal) and node.operator != "eventually" and {EGO} < free_actors(node.body)

@@ -10,12 +10,9 @@ from collections.abc import Mapping
 from dataclasses import replace
 from fractions import Fraction
 
-from scenewright.program.structure import Structure
 from scenewright.program.types import Parameter
 from scenewright.roads.grounding import Scene
-from scenewright.solve.feasibility import EgoBounds, Feasibility, check_feasibility
-from scenewright.solve.limits import Limits
-from scenewright.solve.proofs.refuters import Refuter
+from scenewright.solve.feasibility import Feasibility, Question, check_feasibility
 
 # SI values by dimension, for words that occur in the name; the empty word is the default.
 _EVERYDAY: dict[str, tuple[tuple[str, Fraction], ...]] = {
@@ -27,31 +24,24 @@ _EVERYDAY: dict[str, tuple[tuple[str, Fraction], ...]] = {
 _DIGITS = (0, 1, 2, 3, 6)
 
 
-def settle(
-    scene: Scene,
-    structure: Structure,
-    limits: Mapping[int, Limits],
-    ego: EgoBounds | None = None,
-    refuter: Refuter | None = None,
-    explain: bool = True,
-) -> tuple[Scene, Feasibility]:
-    """Return `scene` with a value for every parameter, and whether it can happen; with `explain`, why not.
+def settle(question: Question, explain: bool = True) -> tuple[Scene, Feasibility]:
+    """Return a question's scene with a value for every parameter, and whether it can happen; with `explain`, why not.
 
     Everyday values are taken where the scenario is possible with them; else those of a motion found with all of them
     free, rounded as far as it stays possible. Where there is none the answer is that for all values.
     """
-    open_parameters = scene.open_parameters()
+    scene, open_parameters = question.scene, question.scene.open_parameters()
 
     def with_values(values: Mapping[str, Fraction]) -> tuple[Scene, Feasibility]:
         settled = replace(scene, parameters={**scene.parameters, **values})
-        return settled, check_feasibility(settled, structure, limits, ego, explain=False, refuter=refuter)
+        return settled, check_feasibility(replace(question, scene=settled), explain=False)
 
     if not open_parameters:
-        return scene, check_feasibility(scene, structure, limits, ego, explain, refuter=refuter)
+        return scene, check_feasibility(question, explain)
     everyday, answer = with_values({parameter.name: everyday_value(parameter) for parameter in open_parameters})
     if answer.answer == "feasible":
         return everyday, answer
-    found = check_feasibility(scene, structure, limits, ego, explain, refuter=refuter)
+    found = check_feasibility(question, explain)
     if found.answer != "feasible":
         return everyday, found
     for digits in _DIGITS:

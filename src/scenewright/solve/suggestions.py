@@ -10,13 +10,13 @@ from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from scenewright.program.expressions import Compare, Formula, Number, ParameterRef, Term, exchanged, walk
+from scenewright.program.expressions import Compare, Number, ParameterRef, Term, exchanged, walk
 from scenewright.program.printer import print_expression
 from scenewright.program.types import Constraint, Program
 from scenewright.roads.grounding import Scene
 from scenewright.solve.proofs.decide import Question, shown
+from scenewright.solve.proofs.forms import compared_dimension
 from scenewright.solve.proofs.witness import Witness
-from scenewright.solve.tolerances import compared_dimension
 from scenewright.translate.lines import in_words
 from scenewright.units import SI_SYMBOL, Dimension, decimal_fraction, format_fraction
 
@@ -28,6 +28,9 @@ _BISECTIONS, _NEAR = 10, Fraction(1, 30)  # and how near it is to be, of the way
 _SUGGESTIONS = 4
 _DECIMALS = 2, 3, 1  # of what is easy to read, tried in turn
 _FROM_ZERO = ("length", "time")  # a speed or a rate of nothing is another thing than a small one
+
+
+_Range = tuple[Fraction, Fraction]
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,19 +82,6 @@ class Lever:
         return replace(program, constraints=constraints)
 
 
-@dataclass(slots=True)
-class _Budget:
-    """What is left of the work that proposals may take."""
-
-    left_s: float = _ALL_S
-
-    def witness(self, question: Question, guesses: int = _GUESSES) -> Witness | None:
-        """Look for a witness, and count it. What has none so soon is not proposed: no proof is needed for that."""
-        found, took_s = shown(question, guesses)
-        self.left_s -= took_s
-        return found
-
-
 def suggest(question: Question, core: set[str]) -> Iterator[Suggestion]:
     """Yield a few changes of one number, each with the value nearest to the present one that is possible.
 
@@ -100,18 +90,17 @@ def suggest(question: Question, core: set[str]) -> Iterator[Suggestion]:
     core
         Ids of the constraints that clash; only their numbers are tried.
     """
-    budget, found = _Budget(), list[tuple[_Tried, list[Fraction]]]()
+    trials, found = _Trials(question), list[tuple[Lever, list[Fraction]]]()
     for lever in levers(question.scene, core):
-        if len(found) >= _SUGGESTIONS or budget.left_s <= (_NEARER_S if found else 0.0):
+        if len(found) >= _SUGGESTIONS or trials.left_s <= (_NEARER_S if found else 0.0):
             break
-        tried = _Tried(question, lever, budget)
-        if far_off := tried.far_off():
-            found.append((tried, far_off))
-    for number, (tried, far_off) in enumerate(found):
-        until_s = max(_ROUNDED_S, budget.left_s * (1.0 - 1.0 / (len(found) - number)))
-        nearest = tried.readable(tried.nearest(far_off, until_s))
+        if far_off := trials.far_off(lever):
+            found.append((lever, far_off))
+    for number, (lever, far_off) in enumerate(found):
+        until_s = max(_ROUNDED_S, trials.left_s * (1.0 - 1.0 / (len(found) - number)))
+        nearest = trials.readable(lever, trials.nearest(lever, far_off, until_s))
         if nearest is not None:
-            yield Suggestion(tried.lever.what, float(tried.lever.value), float(nearest), tried.lever.unit)
+            yield Suggestion(lever.what, float(lever.value), float(nearest), lever.unit)
 
 
 def levers(scene: Scene, constraints: Container[str]) -> Iterator[Lever]:
@@ -121,7 +110,8 @@ def levers(scene: Scene, constraints: Container[str]) -> Iterator[Lever]:
     for constraint in program.constraints:
         if constraint.id not in constraints:
             continue
-        for node, dimension in _numbers(constraint.formula):
+        compared = (part for part in walk(constraint.formula) if isinstance(part, Compare))
+        for node, dimension in ((node, compared_dimension(part)) for part in compared for node in walk(part)):
             if isinstance(node, ParameterRef) and node.name in scene.parameters and node.name not in seen:
                 seen.add(node.name)
                 parameter = next(p for p in program.parameters if p.name == node.name)
@@ -135,71 +125,65 @@ def levers(scene: Scene, constraints: Container[str]) -> Iterator[Lever]:
                 yield Lever(what, node.value, dimension, f"free_{constraint.id}", constraint, node)
 
 
-def _numbers(formula: Formula) -> Iterator[tuple[ParameterRef | Number, Dimension]]:
-    """Yield numbers and parameters that a formula compares, with the dimension of what they are compared with."""
-    for part in walk(formula):
-        if isinstance(part, Compare):
-            yield from ((n, compared_dimension(part)) for n in walk(part) if isinstance(n, ParameterRef | Number))
-
-
-@dataclass(frozen=True, slots=True)
-class _Tried:
-    """Other values of one lever, tried within a budget."""
+@dataclass(slots=True)
+class _Trials:
+    """Other values of levers, tried as long as there is work left. What has no witness soon is not proposed."""
 
     question: Question
-    lever: Lever
-    budget: _Budget
+    left_s: float = _ALL_S
 
-    def asked(self, term: Number | ParameterRef) -> Question:
-        """Return the question with a term in the lever's place: another number, or one that is to be found."""
-        scene, lever = self.question.scene, self.lever
-        known = {name: value for name, value in scene.parameters.items() if lever.number or name != lever.name}
-        if lever.number is None and isinstance(term, Number):
-            known[lever.name] = term.value
-        return replace(self.question, scene=replace(scene, program=lever.put(scene.program, term), parameters=known))
+    def witness(self, lever: Lever, value: Fraction | _Range, guesses: int = _GUESSES) -> Witness | None:
+        """Look for a witness with another number in the lever's place, or with any in a range."""
+        scene, name = self.question.scene, lever.name
+        known = {each: own for each, own in scene.parameters.items() if lever.number or each != name}
+        if isinstance(value, tuple):
+            freed, program = {name: value}, lever.put(scene.program, ParameterRef(name))
+        else:
+            freed, program = {}, lever.put(scene.program, Number(value))
+            known |= {} if lever.number else {name: value}
+        other = replace(scene, program=program, parameters=known)
+        found, took_s = shown(replace(self.question, scene=other, freed=freed), guesses)
+        self.left_s -= took_s
+        return found
 
-    def does(self, value: Fraction, guesses: int = _GUESSES) -> bool:
-        """Whether it can happen with a number in the lever's place."""
-        return self.budget.witness(self.asked(Number(value)), guesses) is not None
-
-    def up_to(self, end: Fraction, guesses: int = _GUESSES) -> Fraction | None:
+    def up_to(self, lever: Lever, end: Fraction, guesses: int = _GUESSES) -> Fraction | None:
         """Return a value that does between the lever's own and another; None where none is found.
 
         From so many `guesses` the other is tried by itself, where none between the two is found as an unknown.
         """
-        low, high = min(self.lever.value, end), max(self.lever.value, end)
-        freed = replace(self.asked(ParameterRef(self.lever.name)), freed={self.lever.name: (low, high)})
-        witness = self.budget.witness(freed)
+        between = min(lever.value, end), max(lever.value, end)
+        witness = self.witness(lever, between)
         if witness is not None:
-            return decimal_fraction(f"{witness.parameters[self.lever.name]:.6f}")
+            return decimal_fraction(f"{witness.parameters[lever.name]:.6f}")
         # As a number it bounds a law of motion, where that is what it does; as an unknown it cannot.
-        return end if self.does(end, guesses) else None
+        return end if self.witness(lever, end, guesses) else None
 
-    def far_off(self) -> list[Fraction]:
+    def far_off(self, lever: Lever) -> list[Fraction]:
         """Return a value in either direction that does, however far off it is."""
-        value, sign = self.lever.value, -1 if self.lever.value < 0 else 1
+        value, sign = lever.value, -1 if lever.value < 0 else 1
         ends = (sign * 10 * abs(value) + 20 * sign, Fraction(0) if value else Fraction(-20))
-        return [far for end in ends if self.budget.left_s > 0.0 and (far := self.up_to(end)) is not None]
+        return [far for end in ends if self.left_s > 0.0 and (far := self.up_to(lever, end)) is not None]
 
-    def nearest(self, far_off: Sequence[Fraction], until_s: float) -> Fraction:
-        """Bisect between the lever's own value and those that do, until it is near enough or so much budget is left."""
-        value, nearest = self.lever.value, []
+    def nearest(self, lever: Lever, far_off: Sequence[Fraction], until_s: float) -> Fraction:
+        """Bisect between the lever's own value and those that do, until it is near enough or so much work is left."""
+        value, nearest = lever.value, []
         for far in far_off:
             near = value
             for _ in range(_BISECTIONS):
-                if self.budget.left_s <= until_s or abs(far - near) <= _NEAR * abs(far - value):
+                if self.left_s <= until_s or abs(far - near) <= _NEAR * abs(far - value):
                     break
                 middle = (near + far) / 2
-                better = self.up_to(middle, _FEW)
+                better = self.up_to(lever, middle, _FEW)
                 near, far = (middle, far) if better is None else (near, better)
             nearest.append(far)
         return min(nearest, key=lambda candidate: abs(candidate - value))
 
-    def readable(self, best: Fraction) -> Fraction | None:
+    def readable(self, lever: Lever, best: Fraction) -> Fraction | None:
         """Return a number near to `best` that is easy to read and does, too; None where none was seen to."""
-        every = (each for digits in _DECIMALS for each in _rounded(best, self.lever.value, digits))
-        readable = dict.fromkeys(each for each in every if each != self.lever.value)
-        return next((each for each in (*readable, best) if self.budget.left_s > 0.0 and self.does(each)), None)
+        every = (each for digits in _DECIMALS for each in _rounded(best, lever.value, digits))
+        readable = dict.fromkeys(each for each in every if each != lever.value)
+        tried = (each for each in (*readable, best) if self.left_s > 0.0)
+        return next((each for each in tried if self.witness(lever, each)), None)
 
 
 def _rounded(found: Fraction, origin: Fraction, digits: int) -> tuple[Fraction, Fraction]:

@@ -6,7 +6,6 @@ import random
 from collections.abc import Sequence
 from fractions import Fraction
 
-from scenewright.solve.proofs.events import Unknown
 from scenewright.solve.proofs.polynomials import (
     ZERO,
     All,
@@ -15,6 +14,7 @@ from scenewright.solve.proofs.polynomials import (
     Named,
     Polynomial,
     Some,
+    Unknown,
     atom,
     compare,
     every,

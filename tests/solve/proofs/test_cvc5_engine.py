@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import time
-from pathlib import Path
 
 import pytest
 from posed import UNKNOWNS, X, Y, asked, named
 
 from scenewright.errors import SolverError
-from scenewright.solve.proofs import cvc5_engine, cvc5_process
+from scenewright.solve.proofs import cvc5_engine
 from scenewright.solve.proofs.cvc5_engine import Cvc5
 from scenewright.solve.proofs.polynomials import compare, some
 
@@ -26,20 +25,16 @@ def test_it_answers_and_names_what_clashes() -> None:
     assert "high" in told.core
 
 
-def test_one_that_does_not_keep_its_time_is_stopped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    endless = tmp_path / "endless.py"
-    endless.write_text("while True: pass\n")
-    monkeypatch.setattr(cvc5_process, "__file__", str(endless))
+def test_one_that_does_not_keep_its_time_is_stopped(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(cvc5_engine, "_ASKS", "while True: pass")
     monkeypatch.setattr(cvc5_engine, "_START_S", 0.1)
     began = time.monotonic()
     assert asked(Cvc5(), 0.1).kind == "timeout"
     assert time.monotonic() - began < 30, "it was stopped, and not waited for"
 
 
-def test_one_that_fails_is_a_fault_and_no_answer(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    broken = tmp_path / "broken.py"
-    broken.write_text("raise ValueError('no such option')\n")
-    monkeypatch.setattr(cvc5_process, "__file__", str(broken))
+def test_one_that_fails_is_a_fault_and_no_answer(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(cvc5_engine, "_ASKS", "raise ValueError('no such option')")
     with pytest.raises(SolverError, match="cvc5 failed") as caught:
         asked(Cvc5(), 5.0)
     assert caught.value.found == "ValueError: no such option"

@@ -1,7 +1,8 @@
-"""Polynomials and formulas: arithmetic, negation, violation."""
+"""Polynomials and formulas: arithmetic, negation, violation, what of them clashes, and their text."""
 
 from __future__ import annotations
 
+import random
 from fractions import Fraction
 
 import pytest
@@ -12,16 +13,21 @@ from posed import violation
 from scenewright.solve.proofs.polynomials import (
     FALSE,
     TRUE,
+    Named,
     Polynomial,
     TooHigh,
+    Unknown,
     compare,
     every,
+    needed,
     polynomial,
+    smtlib,
     some,
     unknown,
 )
 
 X, Y = unknown(0), unknown(1)
+RANGES = [Unknown("x", Fraction(-1, 3), Fraction(10), "other"), Unknown("y", Fraction(0), Fraction(1), "other")]
 NUMBERS = st.fractions(-9, 9, max_denominator=8)
 POINTS = st.tuples(NUMBERS, NUMBERS)
 
@@ -64,3 +70,41 @@ def test_a_violation_is_that_of_the_nearest_alternative() -> None:
 def test_no_cubic_hides_in_a_sum() -> None:
     assert isinstance(X + Y, Polynomial)
     assert ((X + Y) - Y).terms == X.terms
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_what_is_needed_clashes_and_nothing_in_it_can_be_left_out(seed: int) -> None:
+    draw = random.Random(seed)
+    clashing = [set(draw.sample(range(12), draw.randint(1, 4))) for _ in range(3)]
+
+    def clash(items: list[int]) -> bool:
+        return any(each <= set(items) for each in clashing)
+
+    found = needed(range(12), clash)
+    assert clash(found)
+    assert not any(clash([other for other in found if other != item]) for item in found)
+
+
+def test_what_does_not_clash_by_itself_is_kept() -> None:
+    """Whoever gives up asking says that nothing clashes."""
+    assert needed("abc", lambda _: False) == ["a", "b", "c"]
+
+
+# -- text -------------------------------------------------------------------------------------------------------------
+def test_numbers_are_exact_and_products_are_written_out() -> None:
+    *declared, asserted = smtlib(RANGES, [Named(compare("<", 2 * X * Y, Fraction(1, 3)), "a")]).splitlines()
+    assert declared == [
+        "(declare-const u0 Real)",
+        "(assert (<= (- (/ 1.0 3.0)) u0 10.0))",
+        "(declare-const u1 Real)",
+        "(assert (<= 0.0 u1 1.0))",
+    ]
+    assert asserted == "(assert (< (+ (* 2.0 u0 u1) (- (/ 1.0 3.0))) 0.0))"
+
+
+def test_trees_and_names() -> None:
+    tree = every([some([compare("==", X, Y), compare("<=", X, 0)]), compare("<=", Y, 1)])
+    text = smtlib(RANGES, [Named(tree, "a"), Named(FALSE, "b")], named=True)
+    assert text.startswith("(set-option :produce-unsat-cores true)")
+    assert "(! (and (or (= (+ u0 (* (- 1.0) u1)) 0.0) (<= u0 0.0)) (<= (+ u1 (- 1.0)) 0.0)) :named n0)" in text
+    assert "(! false :named n1)" in text

@@ -16,9 +16,7 @@ from forms import FORMS, program
 from scenewright.errors import InputError, MissingExtraError, SolverError
 from scenewright.program.text import parse_program
 from scenewright.roads.grounding import ground
-from scenewright.solve.proofs.cores import needed
-from scenewright.solve.proofs.events import Unknown
-from scenewright.solve.proofs.polynomials import Named, compare, some
+from scenewright.solve.proofs.polynomials import Named, Unknown, compare, needed, some
 from scenewright.solve.proofs.refuters import (
     GROUP,
     SOLVERS,

@@ -78,7 +78,7 @@ def passing_s(motion: Motion, place_m: float, end_s: float) -> float:
 def check_planted(planted: Planted) -> int:
     """Check that all formulas are true of the motions; return how many bounds there are on speeds in bends."""
     events, lowering = lowered(planted.scene())
-    more, constraints = Refinement(events, lowering, planted.limits()), events.scene.program.constraints
+    more, constraints = Refinement(events, lowering), events.scene.program.constraints
     more.bound_in_bend(1, [each.formula for each in lowering.lower(constraints)])
     formulas = relaxation(events, [*lowering.narrowings, *more.narrowings], lowering.lower(constraints))
     point = values_of(planted, events, lowering)

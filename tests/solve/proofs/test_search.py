@@ -40,7 +40,7 @@ def test_what_is_found_meets_formulas_and_laws(seed: int) -> None:
     events, search, point = searched(plant(seed).text)
     if point is None:
         pytest.skip("not found: how many are is tested below")
-    for formula in search.formulas:
+    for formula in search._compiled._formulas:
         assert violation(formula, point) < 2e-3
     for actor in (0, 1):
         order, laws = search.way_of(point, actor)

@@ -11,7 +11,6 @@ from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
 from scenewright.program import expressions as ex
-from scenewright.program.manner import Manner
 from scenewright.program.structure import KnotKey, Structure, placed_at
 from scenewright.program.types import EGO, Constraint
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
@@ -29,22 +28,16 @@ _SIDES = ((">=", 1), ("<=", -1))
 def apart(events: Events, structure: Structure, constraints: Sequence[Constraint]) -> list[Named]:
     """Return that those are apart of whom a distance is asked for, at each knot at which it is, and as at the start."""
     program, triggers = events.scene.program, structure.triggers.values()
-    room_m = pin(_OVERLAP_M) + program.manner.clear_m
-    return [
-        Named(rule, _words(a == EGO, program.manner))
-        for a, b, key in dict.fromkeys(_asked(structure, constraints))
-        if not any({a, b} <= placed_at(program, trigger) for trigger in triggers)
-        for rule in (
-            *clear(events, a, b, events.knot(*key), room_m),
-            *_in_order(events, a, b, events.knot(*key), room_m),
-        )
-    ]
-
-
-def _words(of_ego: bool, manner: Manner) -> str:
-    """Say what a proof takes for granted; where there is a number of the manner in it, with that."""
-    words = "the ego touches nobody before the trigger" if of_ego else APART
-    return f"{words} (clear_m is {format_fraction(manner.clear_m)} m)" if manner.clear_m else words
+    clear_m = program.manner.clear_m
+    room_m = pin(_OVERLAP_M) + clear_m
+    found = list[Named]()
+    for a, b, key in dict.fromkeys(_asked(structure, constraints)):
+        if not any({a, b} <= placed_at(program, trigger) for trigger in triggers):
+            at, words = events.knot(*key), "the ego touches nobody before the trigger" if a == EGO else APART
+            words += f" (clear_m is {format_fraction(clear_m)} m)" if clear_m else ""
+            for instants in ([at], [events.start, at]) if at != events.start else ([at],):
+                found += [Named(rule, words) for rule in clear(events, a, b, instants, room_m)]
+    return found
 
 
 def _asked(structure: Structure, constraints: Sequence[Constraint]) -> Iterator[tuple[int, int, KnotKey]]:
@@ -71,26 +64,16 @@ def _asked(structure: Structure, constraints: Sequence[Constraint]) -> Iterator[
             yield from [(a, b, key)] if a != EGO or key in early else []
 
 
-def clear(events: Events, a: int, b: int, instant: int, room_m: Fraction) -> Iterator[Formula]:
-    """Yield for each stretch that two share that one of them is outside it, or ahead of the other by some room."""
-    for stretch in _shared(events, a, b):
-        ahead = _ahead(events, a, b, instant, stretch)
-        outside = _outside(events, a, b, instant, stretch)
-        yield some([compare(">=", ahead, room_m), compare("<=", ahead, -room_m), *outside])
+def clear(events: Events, a: int, b: int, instants: Sequence[int], room_m: Fraction) -> Iterator[Formula]:
+    """Yield for each stretch that two share that one of them is outside it, or ahead of the other by some room.
 
-
-def _in_order(events: Events, a: int, b: int, instant: int, room_m: Fraction) -> Iterator[Formula]:
-    """Yield for each stretch that whoever is ahead in it at the start stays so: nobody leaves it and comes back."""
-    start = events.start
-    for stretch in _shared(events, a, b) if instant != start else ():
-        ahead = [_ahead(events, a, b, at, stretch) for at in (start, instant)]
-        outside = [each for at in (start, instant) for each in _outside(events, a, b, at, stretch)]
+    At more than one instant it is the same one who is ahead: nobody leaves a stretch and comes back.
+    """
+    for stretch in shared_stretches(events.scene.routes[a], events.scene.routes[b]):
+        ahead = [_ahead(events, a, b, at, stretch) for at in instants]
+        outside = [each for at in instants for each in _outside(events, a, b, at, stretch)]
         before, behind = (every([compare(sign, each, side * room_m) for each in ahead]) for sign, side in _SIDES)
         yield some([before, behind, *outside])
-
-
-def _shared(events: Events, a: int, b: int) -> Sequence[Stretch]:
-    return shared_stretches(events.scene.routes[a], events.scene.routes[b])
 
 
 def _outside(events: Events, a: int, b: int, instant: int, stretch: Stretch) -> list[Formula]:

@@ -8,7 +8,6 @@ heroes must all pass it within a time that is shorter than they cover it one aft
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,10 +19,9 @@ from scenewright.roads.conflicts import conflicts, shared_stretches
 from scenewright.roads.grounding import Scene
 from scenewright.roads.zones import overlap
 from scenewright.solve.proofs.apart import APART
-from scenewright.solve.proofs.cores import needed
 from scenewright.solve.proofs.events import Events
 from scenewright.solve.proofs.order import least_differences, places_within
-from scenewright.solve.proofs.polynomials import Named
+from scenewright.solve.proofs.polynomials import Named, needed
 from scenewright.units import pin
 
 Array = NDArray[np.float64]
@@ -45,14 +43,14 @@ def crowded(events: Events, lowered: Sequence[Named]) -> tuple[str, ...]:
     triggers = dict.fromkeys(read_structure(program).triggers.values())
     placed = {instant: placed_at(program, instant) - {EGO} for instant in triggers}
     meetings = [(sorted(heroes), {events.knot(*key) for key in at}) for at, heroes in placed.items() if len(heroes) > 1]
-    facts = _Facts.of(events, lowered, meetings)
+    facts = _Facts(events, lowered, meetings)
     for point in _points(events.scene, facts):
         crowd = facts.crowd(point)
         if len(crowd) > 1:
             there = {hero: point[hero] for hero in crowd}
 
             def clash(fewer: list[Named], there: Point = there, count: int = len(crowd)) -> bool:
-                return len(_Facts.of(events, fewer, meetings).crowd(there)) == count
+                return len(_Facts(events, fewer, meetings).crowd(there)) == count
 
             kept = needed(lowered, clash)
             told = [each.origin for each in kept]
@@ -68,49 +66,35 @@ def _ties(program: Program, told: Collection[str], crowd: Sequence[int]) -> list
     return [name for name, key in ties if any(key in group for group in groups)]
 
 
-@dataclass(slots=True)
 class _Facts:
     """What constraints say of single places, and of how much later one moment is at least than another.
 
     And who may touch another: the judge lets contact pass that a trigger asks for.
     """
 
-    events: Events
-    least: Array
-    most_m: Mapping[tuple[int, int], float]
-    least_m: Mapping[tuple[int, int], float]
-    touching: set[int]
-
-    @classmethod
-    def of(cls, events: Events, lowered: Sequence[Named], meetings: Sequence[Meeting]) -> _Facts:
-        """Gather the facts of some constraints."""
+    def __init__(self, events: Events, lowered: Sequence[Named], meetings: Sequence[Meeting]) -> None:
         formulas = [each.formula for each in lowered]
         within = places_within(events, formulas).items()
         ends = {hero: events.scene.routes[hero].landmarks["route_end"] for hero in events.scene.routes}
-        most_m = {key: float(high) for key, (_, high) in within if high < pin(ends[key[0]])}
-        least_m = {key: float(low) for key, (low, _) in within if low > 0}
-        found = cls(events, least_differences(events, formulas), most_m, least_m, set())
-        found.touching.update(*(found._touching(*meeting) for meeting in meetings))
-        return found
+        self.events, self.least = events, least_differences(events, formulas)
+        self.most_m = {key: float(high) for key, (_, high) in within if high < pin(ends[key[0]])}
+        self.least_m = {key: float(low) for key, (low, _) in within if low > 0}
+        self.touching = set[int]().union(*(self._touching(*meeting) for meeting in meetings))
 
     def crowd(self, point: Point) -> tuple[int, ...]:
         """Return heroes that cannot all pass a point in the time that they have for it."""
-        jobs = [
-            (hero, *window)
-            for hero in sorted(set(point) - self.touching)
-            if (window := self._window(hero, point[hero]))
-        ]
-        if len(jobs) < 2:
+        passing = {hero: self._window(hero, point[hero]) for hero in sorted(set(point) - self.touching)}
+        windows = {hero: window for hero, window in passing.items() if window is not None}
+        if len(windows) < 2:
             return ()
-        early, late = np.array([job[1] for job in jobs]), np.array([job[2] for job in jobs])  # (heroes, moments)
-        lasts = np.array([job[3] for job in jobs])
+        early, late, lasts = map(np.array, zip(*windows.values(), strict=True))  # of (heroes, moments); of heroes
         for since in np.flatnonzero(np.min(late - early, axis=0) < lasts.sum()):  # times are counted from this moment
             begins, ends = early[:, since], late[:, since]
             inside = (begins[None, None] >= begins[:, None, None]) & (ends[None, None] <= ends[None, :, None])
             over = inside @ lasts - (ends[None] - begins[:, None])
             first, last = np.unravel_index(np.argmax(np.where(inside.sum(axis=2) > 1, over, -np.inf)), over.shape)
             if over[first, last] > _ROUNDING and inside[first, last].sum() > 1:
-                return tuple(jobs[k][0] for k in np.flatnonzero(inside[first, last]))
+                return tuple(hero for hero, within in zip(windows, inside[first, last], strict=True) if within)
         return ()
 
     def _window(self, hero: int, place_m: float) -> tuple[Array, Array, float] | None:

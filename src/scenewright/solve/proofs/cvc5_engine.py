@@ -13,14 +13,20 @@ import time
 from collections.abc import Sequence
 
 from scenewright.errors import SolverError
-from scenewright.solve.proofs import cvc5_process
-from scenewright.solve.proofs.events import Unknown
 from scenewright.solve.proofs.order import tightened
-from scenewright.solve.proofs.polynomials import Named
+from scenewright.solve.proofs.polynomials import Named, Unknown, smtlib
 from scenewright.solve.proofs.refuters import Answer, Capabilities
-from scenewright.solve.proofs.smtlib import smtlib
 
 _START_S = 1.0  # what a process may take to start, on a busy machine
+# Asked in a process of its own, which imports nothing of ours and can be stopped: cvc5 does not always keep its limit.
+_ASKS = """
+import sys, cvc5
+solver = cvc5.Solver(cvc5.TermManager())
+parser = cvc5.InputParser(solver)
+parser.setStringInput(cvc5.InputLanguage.SMT_LIB_2_6, sys.stdin.read(), "question")
+while not (command := parser.nextCommand()).isNull():
+    sys.stdout.write(command.invoke(solver, parser.getSymbolManager()))
+"""
 _NAME = re.compile(r"\bn(\d+)\b")
 
 
@@ -58,7 +64,7 @@ class Cvc5:
 
 def _said(text: str, limit_s: float) -> str | None:
     """Return what cvc5 prints; None where it had to be stopped."""
-    command = [sys.executable, "-P", cvc5_process.__file__]
+    command = [sys.executable, "-P", "-c", _ASKS]
     try:
         done = subprocess.run(command, input=text, capture_output=True, text=True, timeout=limit_s, check=False)
     except subprocess.TimeoutExpired:

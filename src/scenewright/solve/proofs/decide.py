@@ -21,12 +21,11 @@ from scenewright.program.types import EGO, Constraint
 from scenewright.roads.grounding import Scene
 from scenewright.solve.limits import Limits
 from scenewright.solve.proofs.apart import apart
-from scenewright.solve.proofs.cores import needed
 from scenewright.solve.proofs.crowding import crowded
-from scenewright.solve.proofs.events import LONGEST_S, EgoBounds, Events, Unknown
+from scenewright.solve.proofs.events import LONGEST_S, EgoBounds, Events
 from scenewright.solve.proofs.guesses import carried_over, first_guess
 from scenewright.solve.proofs.lowering import Lowering
-from scenewright.solve.proofs.polynomials import ZERO, Formula, Named, resting_on
+from scenewright.solve.proofs.polynomials import ZERO, Formula, Named, Unknown, needed, resting_on
 from scenewright.solve.proofs.refinement import Refinement
 from scenewright.solve.proofs.refuters import SOLVERS, Refuter
 from scenewright.solve.proofs.relaxation import relaxation
@@ -111,7 +110,7 @@ class _Case:
         self.lowered: list[Named] = []
         self.lower()
         self.events.rules += apart(self.events, question.structure, self.constraints)
-        self.more = Refinement(self.events, self.lowering, question.limits)
+        self.more = Refinement(self.events, self.lowering)
         if plan:
             self.more.lasting_rates()
         for actor in question.bending:
@@ -228,9 +227,8 @@ def _core(question: Question, unknowns: Sequence[Unknown], formulas: Sequence[Na
     of them clash is asked about these alone.
     """
     refuter, left_s = question.refuter, _CORE_S
-    told, first = [constraint.id for constraint in question.constraints()], set[str]()
-    if refuter.capabilities.cores:
-        first = set(refuter.ask(unknowns, formulas, 1.0, want_core=True).core)
+    told = [constraint.id for constraint in question.constraints()]
+    first = refuter.ask(unknowns, formulas, 1.0, want_core=True).core if refuter.capabilities.cores else ()
     # What says only who is whose moment is in how formulas are made, and has none that a solver could name.
     stated = {origin for each in formulas for origin in each.origins}
     named = [name for name in told if name in first or name not in stated]

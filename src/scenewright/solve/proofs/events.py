@@ -23,6 +23,7 @@ from scenewright.solve.proofs.polynomials import (
     ZERO,
     Named,
     Polynomial,
+    Unknown,
     compare,
     every,
     polynomial,
@@ -46,10 +47,8 @@ class EgoBounds:
 
     def law(self) -> Law:
         """Return the law of the ego's motion."""
-        top = pin(self.speed_max_mps)
-        if self.holds_speed:
-            return Law(ZERO, ZERO, ZERO, top)
-        return Law(-pin(self.brake_max_mpss), pin(self.accel_max_mpss), ZERO, top)
+        rates = (ZERO, ZERO) if self.holds_speed else (-pin(self.brake_max_mpss), pin(self.accel_max_mpss))
+        return Law(*rates, ZERO, pin(self.speed_max_mps))
 
     def words(self, name: str) -> str:
         """Say what a proof takes for granted of the ego."""
@@ -57,16 +56,6 @@ class EgoBounds:
             return f"{name} holds its speed, as its policy promises"
         source = "any road vehicle" if self == EgoBounds() else "its policy promises"
         return f"{name} {self.law().words()}, as {source}"
-
-
-@dataclass(frozen=True, slots=True)
-class Unknown:
-    """A real number to be found; its kind is ``time``, ``place``, ``speed``, ``rate`` or ``other``."""
-
-    name: str
-    low: Fraction
-    high: Fraction
-    kind: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -188,9 +177,7 @@ class Events:
 
     def law_of(self, actor: int) -> Law:
         """Return the law of an actor that moves freely."""
-        if actor == EGO:
-            return self.ego.law()
-        return self.limits[actor].law()
+        return self.ego.law() if actor == EGO else self.limits[actor].law()
 
     # -- pieces -------------------------------------------------------------------------------------------------------
     def _name_knots(self) -> None:

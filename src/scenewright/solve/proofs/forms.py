@@ -1,4 +1,4 @@
-"""What a formula is like: what it speaks of, and how it falls into parts.
+"""What a formula is like: what it speaks of, how it falls into parts, and which tight tolerance it is compared with.
 
 What enters: formulas of a program. What leaves: their parts, or the same said without denials. It lowers nothing.
 """
@@ -7,9 +7,21 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from fractions import Fraction
 
 from scenewright.program import expressions as ex
 from scenewright.program.types import Program
+from scenewright.units import Dimension
+
+# The tight tolerances of the contract, exact, by what is compared (m, s, m/s, m/s^2).
+TIGHT: dict[Dimension, Fraction] = {
+    "length": Fraction(1, 2),
+    "time": Fraction(1, 10),
+    "speed": Fraction(1, 4),
+    "acceleration": Fraction(1, 4),
+}
+_OF_ORDER: tuple[Dimension, ...] = ("length", "speed", "acceleration")
+_OF_DERIVED: dict[str, Dimension] = {"gap": "length", "tta": "time", "ttc": "time", "headway": "time"}
 
 
 def asserted(formula: ex.Formula, program: Program, denied: bool = False) -> ex.Formula:
@@ -61,3 +73,13 @@ def actors_at(node: ex.State | ex.Derived) -> tuple[int, ...]:
     if isinstance(node, ex.Derived) and isinstance(node.target, int):
         return node.actor, node.target
     return (node.actor,)
+
+
+def compared_dimension(formula: ex.Node) -> Dimension:
+    """Return the dimension of what a comparison compares, told from the first state or derived quantity in it."""
+    for node in ex.walk(formula):
+        if isinstance(node, ex.State):
+            return _OF_ORDER[node.order]
+        if isinstance(node, ex.Derived):
+            return _OF_DERIVED[node.kind]
+    return "time"

@@ -11,9 +11,9 @@ from collections.abc import Callable, Iterable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from scenewright.solve.proofs.events import Events, Unknown
+from scenewright.solve.proofs.events import Events
 from scenewright.solve.proofs.order import tightened
-from scenewright.solve.proofs.polynomials import Formula
+from scenewright.solve.proofs.polynomials import Formula, Unknown
 from scenewright.solve.proofs.witness import Witness
 
 Array = NDArray[np.float64]
@@ -26,29 +26,24 @@ def first_guess(events: Events, formulas: Iterable[Formula], generator: np.rando
     """Return a guess, without a generator the plain one: everybody drives at one speed, past places that are told."""
     ranges = tightened(events.unknowns, formulas)
     told = {number: 0.5 * float(each.low + each.high) for number, each in enumerate(ranges) if each.low == each.high}
-    draw = _middle if generator is None else generator.uniform
+    draw = (lambda low, high: 0.5 * (low + high)) if generator is None else generator.uniform
     speed = draw(*_SPEED_MPS)
     point = np.array([0.5 * float(each.low + each.high) if each.kind == "other" else 0.0 for each in events.unknowns])
     point[list(told)] = list(told.values())
     times = _times(events, ranges, point, speed, draw)
     for actor in events.scene.program.actors:
-        states = {times[k]: events.state(actor.id, k) for k in events.instants_of(actor.id)}
-        anchors = {at_s: told[state.place.number] for at_s, state in states.items() if state.place.number in told}
+        states = [(times[k], events.state(actor.id, k)) for k in events.instants_of(actor.id)]
+        anchors = {at_s: told[state.place.number] for at_s, state in states if state.place.number in told}
         if not anchors:
             stop_line = events.scene.landmarks_m[actor.id].get("stop_line", 80.0)
-            anchors = {min(states): max(5.0, stop_line - _BEFORE_STOP_LINE_M)}
-        for instant in events.instants_of(actor.id):
-            state = events.state(actor.id, instant)
+            anchors = {min(at_s for at_s, _ in states): max(5.0, stop_line - _BEFORE_STOP_LINE_M)}
+        for now_s, state in states:
             if state.place.number not in told:
-                since_s = min(anchors, key=lambda at_s: abs(at_s - times[instant]))
-                point[state.place.number] = anchors[since_s] + speed * (times[instant] - since_s)
+                since_s = min(anchors, key=lambda at_s: abs(at_s - now_s))
+                point[state.place.number] = anchors[since_s] + speed * (now_s - since_s)
             if state.speed.number not in told:
                 point[state.speed.number] = speed
     return point
-
-
-def _middle(low: float, high: float) -> float:
-    return 0.5 * (low + high)
 
 
 def _times(

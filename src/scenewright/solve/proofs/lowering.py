@@ -11,12 +11,13 @@ from collections.abc import Iterable, Iterator
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
+from itertools import product
 
 from scenewright.program import expressions as ex
 from scenewright.program.types import EGO, Constraint
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.solve.proofs.events import Events
-from scenewright.solve.proofs.forms import actors_at, asserted, free_actors
+from scenewright.solve.proofs.forms import TIGHT, actors_at, asserted, compared_dimension, free_actors
 from scenewright.solve.proofs.narrowing import Narrowing, narrowings_of
 from scenewright.solve.proofs.order import least_value
 from scenewright.solve.proofs.polynomials import (
@@ -32,7 +33,6 @@ from scenewright.solve.proofs.polynomials import (
     polynomial,
     some,
 )
-from scenewright.solve.tolerances import TIGHT, compared_dimension
 from scenewright.units import pin
 
 MEAN_RATE = "the rate of a piece is by how much the speed changes in it, over how long it lasts"
@@ -145,21 +145,15 @@ class Lowering:
                 raise TypeError(f"not an asserted formula: {formula!r}")
 
     def _compare(self, formula: ex.Compare, now: int | None) -> Formula:
-        parts = []
-        for left in self.term(formula.left, now):
-            for right in self.term(formula.right, now):
-                held = self._related(formula, left, right)
-                parts.append(every([left.given, right.given, held]))
-        return some(parts)
+        pairs = product(self.term(formula.left, now), self.term(formula.right, now))
+        return some([every([a.given, b.given, self._related(formula, a, b)]) for a, b in pairs])
 
     def _related(self, formula: ex.Compare, left: Case, right: Case) -> Formula:
         if formula.operator != "==" or not self.slack:
             return _related(formula.operator, left, right)
-        room = TIGHT[compared_dimension(formula)] * self.slack
-        parts = []
-        for operator, shift in (("<=", room), (">=", -room)):
-            parts.append(_related(operator, left, replace(right, top=right.top + shift * right.below)))
-        return every(parts)
+        room = TIGHT[compared_dimension(formula)] * self.slack * right.below
+        most, least = replace(right, top=right.top + room), replace(right, top=right.top - room)
+        return every([_related("<=", left, most), _related(">=", left, least)])
 
     def term(self, term: ex.Term, now: int | None) -> list[Case]:
         """Return a term as quotients; more than one where it depends on who is ahead."""
@@ -187,11 +181,8 @@ class Lowering:
             case ex.Negate(operand=operand):
                 return [replace(case, top=-case.top) for case in self.term(operand, now)]
             case ex.Arithmetic():
-                cases = [
-                    self._arithmetic(term, left, right)
-                    for left in self.term(term.left, now)
-                    for right in self.term(term.right, now)
-                ]
+                pairs = product(self.term(term.left, now), self.term(term.right, now))
+                cases = [self._arithmetic(term, *pair) for pair in pairs]
                 if term.operator != "/":
                     return cases
                 if isinstance(term.right, ex.State) and term.right.order == 1:
@@ -256,11 +247,10 @@ class Lowering:
         key = (actor, first, last)
         if key not in self.means:
             law = self.events.law_of(actor)
-            rate = self.events.new(f"r{actor}_{piece}", law.rate_low, law.rate_high, "rate")
+            rate = self.means[key] = self.events.new(f"r{actor}_{piece}", law.rate_low, law.rate_high, "rate")
             lasts = self.events.times[last] - self.events.times[first]
             change = self.events.state(actor, last).speed - self.events.state(actor, first).speed
             self.events.rules.append(Named(compare("==", rate * lasts, change), MEAN_RATE))
-            self.means[key] = rate
         return self.means[key]
 
     def _rate_at(self, actor: int, instant: int) -> Polynomial:
@@ -268,8 +258,7 @@ class Lowering:
         key = (actor, instant)
         if key not in self.rates:
             law = self.events.law_of(actor)
-            rate = self.events.new(f"a{actor}_{instant}", law.rate_low, law.rate_high, "rate")
-            self.rates[key] = rate
+            self.rates[key] = self.events.new(f"a{actor}_{instant}", law.rate_low, law.rate_high, "rate")
         return self.rates[key]
 
     def piece_ends(self, actor: int, piece: str) -> tuple[int, int]:
@@ -292,12 +281,10 @@ class Lowering:
         for instant in sorted(set.intersection(*(set(self.events.instants_of(actor)) for actor in actors))):
             if rates and instant == last:  # the rate of what begins there comes after it
                 continue
-            outside = []
-            if instant in (first, last):
-                outside.append(compare(">", times[first], times[last]))
-            else:
-                outside.append(compare("<", times[instant], times[first]))
-                outside.append(compare(">=" if rates else ">", times[instant], times[last]))
+            outside = [compare(">", times[first], times[last])]
+            if instant not in (first, last):
+                after = compare(">=" if rates else ">", times[instant], times[last])
+                outside = [compare("<", times[instant], times[first]), after]
             parts.append(some([*outside, self.formula(body, instant)]))
         return every(parts)
 

@@ -1,26 +1,38 @@
 """Polynomials of unknowns with exact coefficients, and formulas over them: what solvers and the planner are given.
 
 What enters: rationals and unknowns, by number. What leaves: polynomials of second degree at most, and trees of
-conjunctions and disjunctions with comparisons to zero as leaves. Negation is pushed to the leaves as it is made.
+conjunctions and disjunctions with comparisons to zero as leaves; their text, for solvers that read SMT-LIB. Negation is
+pushed to the leaves as it is made.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Literal
+from typing import Literal, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 Point = Mapping[int, float] | Sequence[float] | NDArray[np.float64]
 Monomial = tuple[int, ...]  # the unknowns that are multiplied, in ascending order; () is the constant
+Item = TypeVar("Item")
 ZERO, ONE = Fraction(0), Fraction(1)
 
 
 class TooHigh(Exception):  # noqa: N818 - a signal of the algebra, turned into a refusal by name where it is used
     """A product is of a higher degree than solvers take."""
+
+
+@dataclass(frozen=True, slots=True)
+class Unknown:
+    """A real number to be found; its kind is ``time``, ``place``, ``speed``, ``rate`` or ``other``."""
+
+    name: str
+    low: Fraction
+    high: Fraction
+    kind: str
 
 
 @dataclass(slots=True)
@@ -30,14 +42,10 @@ class Polynomial:
     terms: Mapping[Monomial, Fraction]
 
     def __add__(self, other: Scalar) -> Polynomial:
-        mine, added = dict(self.terms), polynomial(other).terms
-        for key, value in added.items():
-            total = mine.get(key, ZERO) + value
-            if total:
-                mine[key] = total
-            else:
-                mine.pop(key, None)
-        return Polynomial(mine)
+        total = dict(self.terms)
+        for key, value in polynomial(other).terms.items():
+            total[key] = total.get(key, ZERO) + value
+        return Polynomial({key: value for key, value in total.items() if value})
 
     __radd__ = __add__
 
@@ -161,6 +169,16 @@ def resting_on(formulas: Sequence[Named], origins: Collection[str]) -> list[Name
     return [each for each in formulas if all(origin in origins for origin in each.origins)]
 
 
+def needed(items: Sequence[Item], clash: Callable[[list[Item]], bool]) -> list[Item]:
+    """Return what of `items`, which clash together, is needed for that: all but what is found superfluous."""
+    kept = list(items)
+    for item in items:
+        fewer = [other for other in kept if other is not item]
+        if clash(fewer):
+            kept = fewer
+    return kept
+
+
 def atom(left: Scalar, relation: Relation) -> Formula:
     """Return a comparison with zero; a truth value where no unknown is in it."""
     left = polynomial(left)
@@ -211,3 +229,42 @@ def atoms(formula: Formula) -> Iterator[Atom]:
     else:
         for part in formula.parts:
             yield from atoms(part)
+
+
+# -- text --------------------------------------------------------------------------------------------------------------
+def smtlib(unknowns: Sequence[Unknown], formulas: Sequence[Named], named: bool = False) -> str:
+    """Return the problem as text: unknown i is ``u<i>``, and with `named` formula i is ``n<i>``, for cores."""
+    lines = ["(set-option :produce-unsat-cores true)"] if named else []
+    for number, each in enumerate(unknowns):
+        lines.append(f"(declare-const u{number} Real)")
+        lines.append(f"(assert (<= {_number(each.low)} u{number} {_number(each.high)}))")
+    for number, formula in enumerate(formulas):
+        text = _formula(formula.formula)
+        lines.append(f"(assert (! {text} :named n{number}))" if named else f"(assert {text})")
+    return "\n".join(lines)
+
+
+def _formula(formula: Formula) -> str:
+    match formula:
+        case Atom(left=left, relation=relation):
+            return f"({'=' if relation == '==' else relation} {_polynomial(left)} 0.0)"
+        case All(parts=parts):
+            return f"(and {' '.join(map(_formula, parts))})" if parts else "true"
+        case Some(parts=parts):
+            return f"(or {' '.join(map(_formula, parts))})" if parts else "false"
+
+
+def _polynomial(polynomial: Polynomial) -> str:
+    parts = []
+    for key, coefficient in polynomial.terms.items():
+        factors = [f"u{unknown}" for unknown in key]
+        if coefficient != 1 or not factors:
+            factors.insert(0, _number(coefficient))
+        parts.append(f"(* {' '.join(factors)})" if len(factors) > 1 else factors[0])
+    return f"(+ {' '.join(parts)})" if len(parts) > 1 else parts[0]
+
+
+def _number(value: Fraction) -> str:
+    size = abs(value)
+    text = f"{size.numerator}.0" if size.denominator == 1 else f"(/ {size.numerator}.0 {size.denominator}.0)"
+    return f"(- {text})" if value < 0 else text

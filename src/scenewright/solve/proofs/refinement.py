@@ -7,7 +7,7 @@ Everything added is true of every witness; what is also true of every legal moti
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import pairwise
@@ -21,7 +21,7 @@ from scenewright.program.manner import Manner
 from scenewright.program.types import Actor, PieceKind
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.roads.conflicts import find_conflict
-from scenewright.solve.limits import ROOM, Limits, calm_mpss
+from scenewright.solve.limits import ROOM, calm_mpss
 from scenewright.solve.plan import PlanWorld
 from scenewright.solve.proofs.apart import clear
 from scenewright.solve.proofs.events import Events
@@ -46,7 +46,6 @@ class Refinement:
 
     events: Events
     lowering: Lowering
-    limits: Mapping[int, Limits]
     owed: list[Formula] = field(default_factory=list)
     narrowings: list[Narrowing] = field(default_factory=list)
     turning: set[tuple[int, int]] = field(default_factory=set)
@@ -122,21 +121,13 @@ class Refinement:
                 case "apart":
                     self._keep_apart(each, witness)
                 case name:
-                    moments = list(moments_of_worst(asserted(program.constraint(name).formula, program), world))
+                    moments = moments_of_worst(asserted(program.constraint(name).formula, program), world)
                     for node, time_s in moments:
                         self._look_at(node, time_s, witness)
                     if not moments:
                         continue
             added = True
         return added
-
-    def _even(self, actor: int, first: int, last: int) -> bool:
-        """Let an actor keep to one rate between each two moments of a stretch of time; False where it does."""
-        even = Narrowing(actor, first, last, ANY, even=True)
-        if even in self.narrowings:
-            return False
-        self.narrowings.append(even)
-        return True
 
     def _look_at(self, node: ex.Temporal, time_s: float, witness: Witness) -> None:
         """Add a moment between those that there are, at which all that a body speaks of have a state.
@@ -146,8 +137,9 @@ class Refinement:
         actors, made = free_actors(node.body), self._between(time_s, witness)
         for actor in actors:
             self.events.state(actor, made)
-            if len(actors) > 1:
-                self._even(actor, *self.lowering.stretch_of(node))
+            even = Narrowing(actor, *self.lowering.stretch_of(node), ANY, even=True)
+            if len(actors) > 1 and even not in self.narrowings:
+                self.narrowings.append(even)
 
     def _between(self, time_s: float, witness: Witness) -> int:
         """Return a new moment at the same share of the time between its neighbours in the motion found."""
@@ -168,7 +160,7 @@ class Refinement:
         sharper one, so that what keeps to it is legal.
         """
         events, (places, sharpness) = self.events, bends(self.events.scene.routes[actor])
-        most_mpss = self.limits[actor].lateral_max_mpss
+        most_mpss = self.events.limits[actor].lateral_max_mpss
         words = f"{events.scene.program.actor(actor).name} takes bends at {most_mpss:.3g} m/s^2 sideways at most"
         for sharper, share in pairwise((1.0, *SHARES)):
             counts = (sharper if planned else share) * float(sharpness[peak])
@@ -217,7 +209,7 @@ class Refinement:
             self.owed.append(some([*before, *past]))
         else:
             room_m = pin(VEHICLE_LENGTH_M) + clear_m + _ROOM_M
-            self.owed += clear(events, broken.other, broken.actor, made, room_m)
+            self.owed += clear(events, broken.other, broken.actor, [made], room_m)
 
 
 def _around(sharpness: Array, place: int, share: float) -> range:
@@ -239,4 +231,4 @@ def _pulling(kind: PieceKind, rate_mpss: Fraction) -> Law:
 
 def _not_pulling(kind: PieceKind, rate_mpss: Fraction) -> Law:
     """Return the law of who does not brake, or speed up, by more than a rate."""
-    return replace(ANY, rate_low=-rate_mpss) if kind is PieceKind.DEC else replace(ANY, rate_high=rate_mpss)
+    return _pulling(PieceKind.ACC if kind is PieceKind.DEC else PieceKind.DEC, -rate_mpss)

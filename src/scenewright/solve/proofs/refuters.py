@@ -9,23 +9,18 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from importlib.metadata import EntryPoint
 from typing import Literal, Protocol
 
 from scenewright.errors import SolverError
 from scenewright.plugins import Kind
-from scenewright.solve.proofs.events import Unknown
-from scenewright.solve.proofs.polynomials import Named
+from scenewright.solve.proofs.polynomials import Named, Unknown
 
 GROUP = "scenewright.solvers"
-_OURS = tuple(
-    EntryPoint(name, f"scenewright.solve.proofs.{value}", GROUP)
-    for name, value in {
-        "z3": "z3_engine:Z3",
-        "cvc5": "cvc5_engine:Cvc5 [cvc5]",
-        "scip": "scip_engine:Scip [scip]",
-    }.items()
-)
+_OURS = {
+    "z3": "scenewright.solve.proofs.z3_engine:Z3",
+    "cvc5": "scenewright.solve.proofs.cvc5_engine:Cvc5 [cvc5]",
+    "scip": "scenewright.solve.proofs.scip_engine:Scip [scip]",
+}
 SOLVERS: Kind[Refuter] = Kind(GROUP, _OURS, "solver", "refutes", SolverError, {"cvc5": "cvc5", "scip": "pyscipopt"})
 
 

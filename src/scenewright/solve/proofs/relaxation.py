@@ -7,8 +7,7 @@ known to lie within the scenario.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from fractions import Fraction
+from collections.abc import Iterator, Sequence
 from functools import reduce
 from itertools import pairwise, permutations
 
@@ -18,20 +17,10 @@ from numpy.typing import NDArray
 from scenewright.motion.laws import Law, reach
 from scenewright.program.types import EGO
 from scenewright.solve.proofs.events import Events
+from scenewright.solve.proofs.forms import TIGHT
 from scenewright.solve.proofs.narrowing import Narrowing
 from scenewright.solve.proofs.order import least_differences, places_within
-from scenewright.solve.proofs.polynomials import (
-    FALSE,
-    TRUE,
-    ZERO,
-    Formula,
-    Named,
-    atom,
-    compare,
-    every,
-    some,
-)
-from scenewright.solve.tolerances import TIGHT
+from scenewright.solve.proofs.polynomials import FALSE, TRUE, ZERO, Formula, Named, atom, compare, every, some
 
 EVEN_RATE = "a rate that is told of a piece lasts all through it, but for a moment at either end"
 _CERTAIN = 1e-9
@@ -42,19 +31,15 @@ def relaxation(events: Events, narrowings: Sequence[Narrowing], constraints: Seq
     found = [*constraints, *events.rules]
     formulas = [each.formula for each in constraints]
     least, within = least_differences(events, formulas), places_within(events, formulas)
-    narrowings = [each for each in narrowings if not each.up_to_place or _begins_before(each, within)]
+    # What holds up to a place may hold of no time at all, unless it begins before that for certain.
+    latest_m = {key: high for key, (_, high) in within.items()}
+    narrowings = [n for n in narrowings if not n.up_to_place or latest_m.get((n.actor, n.first), n.place_m) < n.place_m]
     found += _order_of_knots(events)
     found += [_evenly(events, each) for each in narrowings if each.even]
     for actor in events.scene.program.actors:
         if not (actor.is_ego and events.drive is not None):  # how it drove is a fact
             found += _motion(events, narrowings, actor.id, least)
     return [each for each in found if each.formula != TRUE]
-
-
-def _begins_before(narrowing: Narrowing, within: Mapping[tuple[int, int], tuple[Fraction, Fraction]]) -> bool:
-    """Whether what holds up to a place begins before it for certain: else it may hold of no time at all."""
-    begins = within.get((narrowing.actor, narrowing.first))
-    return begins is not None and begins[1] < narrowing.place_m
 
 
 def _order_of_knots(events: Events) -> Iterator[Named]:
@@ -74,12 +59,9 @@ def _evenly(events: Events, piece: Narrowing) -> Named:
     A piece of less than three ramps, of which the mean alone is looked at, is within that, too.
     """
     a, b = events.state(piece.actor, piece.first), events.state(piece.actor, piece.last)
-    own = (
-        each.law
-        for each in events.pieces
-        if (each.actor, each.first, each.last) == (piece.actor, piece.first, piece.last)
-    )
-    law, lasts = next(own, events.law_of(piece.actor)), events.times[piece.last] - events.times[piece.first]
+    ends, lasts = (piece.actor, piece.first, piece.last), events.times[piece.last] - events.times[piece.first]
+    own = (each.law for each in events.pieces if (each.actor, each.first, each.last) == ends)
+    law = next(own, events.law_of(piece.actor))
     off, change = (b.place - a.place) * 2 - (a.speed + b.speed) * lasts, b.speed - a.speed
     roughly, ramps_s = lasts * lasts * TIGHT["acceleration"], 3 * events.scene.program.manner.ramp_s
     most = [room * ramps_s + roughly for room in (change - lasts * law.rate_low, lasts * law.rate_high - change)]
@@ -93,7 +75,7 @@ def _motion(events: Events, narrowings: Sequence[Narrowing], actor: int, least: 
     moves = events.ego.words(name) if actor == EGO else f"{name} {free.words()}"
     pieces = [each for each in events.pieces if each.actor == actor]
     bounded = [each for each in narrowings if each.actor == actor and each.proven is not None]
-    instants = events.instants_of(actor)
+    instants, times = events.instants_of(actor), events.times
     for early, late in permutations(instants, 2):
         if least[late, early] > _CERTAIN or _parted(instants, early, late, least):
             continue
@@ -101,12 +83,14 @@ def _motion(events: Events, narrowings: Sequence[Narrowing], actor: int, least: 
         law = reduce(Law.meet, (each.proven for each in certain if each.proven), free)
         origin = next((piece.origin for piece in pieces if piece in certain), moves)
         besides = tuple(dict.fromkeys(each.origin for each in certain if each.origin != origin))
-        reversed_ = [] if least[early, late] >= 0 else [compare("<", events.times[late], events.times[early])]
+        reversed_ = [] if least[early, late] >= 0 else [compare("<", times[late], times[early])]
         yield Named(some([*reversed_, reach_formula(events, actor, early, late, law)]), origin, besides)
         for piece in pieces if origin == moves else ():
             if not any(_outside(piece, instant, least) for instant in (early, late)):
+                ends = ("<", times[piece.first]), (">", times[piece.last])
+                elsewhere = [compare(side, times[k], end) for k in (early, late) for side, end in ends]
                 held = reach_formula(events, actor, early, late, law.meet(piece.law))
-                yield Named(some([*_elsewhere(events, piece, (early, late)), *reversed_, held]), piece.origin, besides)
+                yield Named(some([*elsewhere, *reversed_, held]), piece.origin, besides)
 
 
 def _within(narrowing: Narrowing, early: int, late: int, least: NDArray[np.float64]) -> bool:
@@ -118,13 +102,6 @@ def _within(narrowing: Narrowing, early: int, late: int, least: NDArray[np.float
 def _outside(piece: Narrowing, instant: int, least: NDArray[np.float64]) -> bool:
     """Whether an instant is certain to be before or after a piece."""
     return bool(least[instant, piece.first] > _CERTAIN or least[piece.last, instant] > _CERTAIN)
-
-
-def _elsewhere(events: Events, piece: Narrowing, instants: Iterable[int]) -> Iterator[Formula]:
-    """Yield that one of some moments is before or after a piece."""
-    for instant in instants:
-        yield compare("<", events.times[instant], events.times[piece.first])
-        yield compare(">", events.times[instant], events.times[piece.last])
 
 
 def _parted(instants: list[int], early: int, late: int, least: NDArray[np.float64]) -> bool:
@@ -146,13 +123,9 @@ def reach_formula(events: Events, actor: int, early: int, late: int, law: Law) -
     found = reach(law, a.speed, b.speed, lasts, b.place - a.place)
     if found.impossible:
         return FALSE
-    caps: list[Formula] = []
-    free = events.law_of(actor)
-    for speed in (a.speed, b.speed):
-        if law.speed_high < free.speed_high:
-            caps.append(compare("<=", speed, law.speed_high))
-        if law.speed_low > ZERO:
-            caps.append(compare(">=", speed, law.speed_low))
+    speeds, is_capped = (a.speed, b.speed), law.speed_high < events.law_of(actor).speed_high
+    caps = [compare("<=", speed, law.speed_high) for speed in speeds if is_capped]
+    caps += [compare(">=", speed, law.speed_low) for speed in speeds if law.speed_low > ZERO]
     return every(
         [
             *caps,

@@ -8,15 +8,15 @@ by as much as its polynomial can fail by within the ranges.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
+from itertools import product
 from typing import Any
 
 import pyscipopt
 
-from scenewright.solve.proofs.events import Unknown
 from scenewright.solve.proofs.order import tightened
-from scenewright.solve.proofs.polynomials import All, Atom, Formula, Named, Polynomial, Some
+from scenewright.solve.proofs.polynomials import All, Atom, Formula, Monomial, Named, Polynomial, Some, Unknown
 from scenewright.solve.proofs.refuters import Answer, Capabilities
 
 
@@ -80,19 +80,13 @@ class _Posed:
         """Require ``left <= 0``, unless `chosen` is zero; scaled, so that a tolerance means the same everywhere."""
         scale = max(abs(float(value)) for value in left.terms.values())
         terms = [float(value) / scale * self._product(key) for key, value in left.terms.items()]
-        free = 0 if chosen is None else max(0.0, self._most(left) / scale) * (1 - chosen)
+        most = sum(max(value * math.prod(ends) for ends in self._ends(key)) for key, value in left.terms.items())
+        free = 0 if chosen is None else max(0.0, float(most) / scale) * (1 - chosen)
         self.model.addCons(pyscipopt.quicksum(terms) <= free)
 
-    def _product(self, key: tuple[int, ...]) -> Any:
+    def _product(self, key: Monomial) -> Any:
         return math.prod((self.variables[number] for number in key), start=1)
 
-    def _most(self, polynomial: Polynomial) -> float:
-        """Return a bound on what a polynomial can be within the ranges."""
-        return float(sum(max(self._ends(key, value)) for key, value in polynomial.terms.items()))
-
-    def _ends(self, key: tuple[int, ...], factor: Fraction) -> list[Fraction]:
-        ends = [factor]
-        for number in key:
-            each = self.unknowns[number]
-            ends = [end * bound for end in ends for bound in (each.low, each.high)]
-        return ends
+    def _ends(self, key: Monomial) -> Iterator[tuple[Fraction, ...]]:
+        """Yield what the unknowns of a product are at the corners of their ranges."""
+        return product(*((self.unknowns[number].low, self.unknowns[number].high) for number in key))

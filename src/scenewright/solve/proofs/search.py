@@ -42,8 +42,6 @@ class Search:
     """One search problem; `run` may be asked again from other guesses."""
 
     def __init__(self, events: Events, formulas: Sequence[Formula], narrowings: Sequence[Narrowing]) -> None:
-        self.events = events
-        self.formulas = formulas
         self.steps, self.work = 0, 0
         least, narrower = least_differences(events, formulas), [*events.pieces, *narrowings]
         self._size = len(events.unknowns)

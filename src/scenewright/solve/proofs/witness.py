@@ -63,9 +63,7 @@ class Witness:
 def realised(events: Events, search: Search, point: Array) -> Witness:
     """Return the motion that the values at `point` stand for."""
     times = {number: time.value(point) for number, time in enumerate(events.times)}
-    profiles = {}
-    for actor in events.scene.program.actors:
-        profiles[actor.id] = _profile(events, search, point, actor.id, times)
+    profiles = {each.id: _profile(events, search, point, each.id, times) for each in events.scene.program.actors}
     parameters = {name: value.value(point) for name, value in events.parameters.items()}
     return Witness(profiles, parameters, times, max(times[k] for _, k in events.states))
 

@@ -9,11 +9,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from scenewright.solve.proofs.events import Unknown
 from scenewright.solve.proofs.order import tightened
-from scenewright.solve.proofs.polynomials import Named
+from scenewright.solve.proofs.polynomials import Named, Unknown, smtlib
 from scenewright.solve.proofs.refuters import Answer, Capabilities
-from scenewright.solve.proofs.smtlib import smtlib
 
 if TYPE_CHECKING:
     import z3

@@ -43,7 +43,7 @@ class _Vehicle:
 
 
 class FollowingHeroes:
-    """Heroes driven by driver models; `simulate.heroes.HeroDriver` says what the attributes are.
+    """Heroes driven by driver models; `simulate.loop.HeroDriver` says what the attributes are.
 
     Parameters
     ----------

@@ -22,8 +22,7 @@ from scenewright.plan.planner import Planner
 from scenewright.request import Request, Result, Stages
 from scenewright.simulate.beginning import first_plan
 from scenewright.simulate.ego_start import EgoFirstState
-from scenewright.simulate.heroes import HeroDriver
-from scenewright.simulate.loop import Rates, simulate
+from scenewright.simulate.loop import HeroDriver, Rates, simulate
 from scenewright.simulate.port import Start
 from scenewright.simulate.world import World
 from scenewright.solve.holding import not_held
@@ -92,11 +91,13 @@ def _staged(
     if answer == "infeasible":
         return result
     with stages("plan"):
-        planned = first_plan(world, world.predictor)
+        planned = first_plan(world)
         assert planned is not None  # only a later take may ask for a start that there is none of
         planner, start, result.attempt = planned
     plan = result.attempt.plan
-    result.not_held = tuple(not_held(world.scene, plan.profiles, dimension_of, LOOSE.of))
+    result.not_held = tuple(
+        not_held(world.scene, plan.profiles, dimension_of, LOOSE.of, ego_promised=world.ego_bounds.holds_speed)
+    )
     if result.not_held:  # who starts from it would miss as much, whatever the method
         result.status = "gave up"
         return result

@@ -20,7 +20,7 @@ _NEVER_S = float("inf")
 
 
 class ScriptedHeroes:
-    """A trigger-action engine; `simulate.heroes.HeroDriver` says what the attributes are.
+    """A trigger-action engine; `simulate.loop.HeroDriver` says what the attributes are.
 
     Parameters
     ----------
