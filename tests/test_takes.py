@@ -16,14 +16,14 @@ from stories import STORIES
 
 
 class Halts:
-    """An ego that halts for some seconds in the middle of nowhere, whatever heroes do."""
+    """An ego that halts for some seconds in the middle of nowhere, but where it is alone."""
 
     def reset(self, start: EgoStart) -> None:
         """Begin."""
 
     def step(self, observation: Observation, dt_s: float) -> float:
         """Return an acceleration (m/s^2)."""
-        if 3.0 < observation.time_s < 9.0:
+        if observation.others and 2.0 < observation.time_s < 8.0:
             return -4.0 if observation.ego.speed_mps > 0.1 else 0.0
         return 2.0 if observation.ego.speed_mps < 10.0 else 0.0
 
@@ -50,7 +50,7 @@ def test_a_success_that_nobody_would_drive_so_is_taken_again() -> None:
 
 
 def test_an_aim_beyond_what_decides_changes_takes_and_no_verdict() -> None:
-    asked = Request(STORIES["goes first, distance"], ego="noisy", seed=3)
+    asked = Request(STORIES["goes first, distance"], ego=f"{__name__}:Halts")
     aimed = orchestrate(replace(asked, aim="fine"))
     as_asked = orchestrate(asked)
     assert aimed.status == as_asked.status == "success"
