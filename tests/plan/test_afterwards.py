@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from many_heroes import PROGRAMS
 from situations import planner_of, scene_of
 
-from scenewright.motion.profile import Profile, Segment, chain
+from scenewright.motion.profile import Profile, Segment
 from scenewright.plan.afterwards import goes_on
 from scenewright.plan.asked import Caps
 from scenewright.plan.pairs import Meeting
@@ -145,14 +145,3 @@ def test_nobody_whose_plan_is_over_reaches_the_ego() -> None:
         planner.tick(k * TICK_S)
         assert ego_m - planner.plan.profiles[1].state(k * TICK_S)[0] >= VEHICLE_LENGTH_M + SURELY_M
     assert planner.plan.profiles[1].state(k * TICK_S)[1] < 0.1
-
-
-def test_what_is_planned_is_done_unless_it_has_to_brake() -> None:
-    """Its plan goes on beyond its last knot: it is not cut there, but where a bend comes too soon."""
-    motion = Profile(chain(0.0, 0.0, 10.0, [(1.0, 0.0, 0), (3.0, 0.5, 0)]))
-    assert goes_on(1, {1: motion}, (), 2.0, WANTED, STRAIGHT, planned=True) is motion
-    assert goes_on(1, {1: motion}, (), 2.0, WANTED, STRAIGHT).state(3.0)[1] == pytest.approx(10.5)
-    along = np.arange(0.0, 300.0, 0.5)
-    slow = np.where(along >= 40.0, 4.0, NEVER)
-    caps = Caps(along, slow, slow, *[np.full_like(along, NEVER)] * 2)
-    assert goes_on(1, {1: motion}, (), 2.0, WANTED, caps, planned=True).state(2.5)[2] < -WANTED.accel_mpss

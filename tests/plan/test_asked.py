@@ -149,10 +149,13 @@ def test_caps_are_those_of_bends_and_of_the_road(route: str, turns: bool) -> Non
     for s_m in np.linspace(1.0, path.length_m - 1.0, 300):
         most, comfortable = (caps.at(s_m, each)[0] for each in (caps.most, caps.comfortable))
         bend = abs(path.curvature(float(s_m)))
-        assert comfortable <= most < limits.speed_max_mps
+        assert max(comfortable, most) < limits.speed_max_mps
+        assert comfortable <= most or bend < 0.01, "in a bend"
         assert most**2 * bend <= limits.lateral_max_mpss
         assert comfortable**2 * bend <= asked.wanted.lateral_mpss * 1.01
     assert (min(caps.most) < 0.8 * limits.speed_max_mps) == turns
+    braked = -np.diff(caps.most**2) / (2.0 * np.diff(caps.places))
+    assert braked.max() <= limits.brake_max_mpss, "whoever is no faster than that can keep to it"
 
 
 def test_caps_tell_how_they_change() -> None:

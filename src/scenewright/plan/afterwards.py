@@ -27,17 +27,13 @@ def goes_on(
     time_s: float,
     wanted: Preferences,
     caps: Caps,
-    planned: bool = False,
 ) -> Profile:
-    """Return how a hero goes on: it begins to brake where later it would take more than what is comfortable.
-
-    Where it is still `planned` what it does it goes on to do that, unless it has to brake.
-    """
+    """Return how a hero goes on: it begins to brake where later it would take more than what is comfortable."""
     motion = motions[hero]
     s_m, speed_mps, accel = motion.state(time_s)
     needs = [*_needs(hero, motions, meetings, time_s, wanted), *_bends(caps, s_m, speed_mps, wanted)]
     rate, change_mps = max(needs, default=(0.0, 0.0))
-    if rate < wanted.accel_mpss and (planned or accel == 0.0):
+    if accel == 0.0 and rate < wanted.accel_mpss:
         return motion
     driven = [s if s.end_s <= time_s else s.part(s.start_s, time_s) for s in motion.segments if s.start_s < time_s]
     last = driven[-1]

@@ -278,6 +278,9 @@ def caps_of(route: Route, road_map: RoadMap, limits: Limits, comfortable_mpss: f
     most, comfortable = (
         np.minimum(np.sqrt(a / sharpest), top) for a in (_OF_LATERAL * limits.lateral_max_mpss, comfortable_mpss)
     )
+    # Nobody is so fast before a bend that no braking is enough: its plan may end there.
+    saved = 2.0 * _OF_LATERAL * limits.brake_max_mpss * places
+    most = np.minimum(most, np.sqrt(np.minimum.accumulate((most**2 + saved)[::-1])[::-1] - saved))
     signs = Signs.of(route, road_map)
     posted = (signs.up_to(count).evenly_mps(places) for count in range(1, len(signs.starts_m) + 1))
     return Caps(places, most, comfortable, signs.starts_m, tuple(map(limits.before_trigger_mps, posted)))

@@ -133,7 +133,8 @@ class Planner(Standing):
             self._meetings = in_order(meetings, self.scene, self.structure, best.plan.profiles)
         if not (led or placed) or self._meetings != best.meetings:
             again = self._planned_first(best.plan.profiles[EGO], 0.0, best.plan.profiles)
-            best = again if again.solution.missed.by <= max(GOOD, best.solution.missed.by) else best
+            if self._meetings != best.meetings or again.solution.missed.by <= max(GOOD, best.solution.missed.by):
+                best = again
         best = self._turned(best)
         self._keep(best)
         self._meetings = needed(best.meetings)
@@ -214,23 +215,19 @@ class Planner(Standing):
         return record
 
     def _go_on(self, time_s: float) -> None:
-        """Let heroes past their last knots brake for bends, and keep clear of those that go first, the ego too."""
+        """Let heroes whose plan is over brake for bends, and keep clear of those that go first, the ego too."""
         profiles = dict(self.plan.profiles)
-        over = {
-            hero: last_s
-            for hero in profiles
-            if hero and (last_s := max(profiles[hero].knot_times_s.values())) <= time_s
-        }
+        over = [
+            hero.id for hero in self._heroes if max(profiles[hero.id].knot_times_s.values()) + AFTER_LAST_S <= time_s
+        ]
         if not over:
             return
         seen_s, ego_m, ego_mps, ego_mpss = self._ego.samples[-1]
         ego = {EGO: Profile(chain(seen_s, ego_m, ego_mps, [(1.0, ego_mpss, 0)]))}
-        for hero, last_s in over.items():
+        for hero in over:
             caps, s_m = self._asked.caps[hero], profiles[hero].state(time_s)[0]
             meetings = (*self._meetings, *(m for m in self._behind_ego[hero] if m.has_begun(ego_m, s_m)))
-            profiles[hero] = goes_on(
-                hero, profiles | ego, meetings, time_s, self._asked.wanted, caps, time_s < last_s + AFTER_LAST_S
-            )
+            profiles[hero] = goes_on(hero, profiles | ego, meetings, time_s, self._asked.wanted, caps)
         self.plan = replace(self.plan, profiles=profiles)
 
     def _made(self, problem: Problem, solution: Solution, prediction: Profile) -> _Found:
