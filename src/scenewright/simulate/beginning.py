@@ -1,6 +1,7 @@
 """How a run begins: the ego's first state and the heroes' first plan, chosen together.
 
-What enters: a `World` and how the ego is foreseen. What leaves: the best first plan over the ego's possible starts.
+What enters: a `World`, and how the ego drove in the last take. What leaves: the best first plan over the ego's possible
+starts.
 """
 
 from __future__ import annotations
@@ -129,9 +130,11 @@ def _foreseen(world: World, start: EgoFirstState, drive: Profile | None) -> tupl
     """
     road = alone = world.predictor
     if not (isinstance(road, ConstantSpeed) or world.simulator.capabilities.drives_ego):
-        once, again = (drives_alone(world.ego, start, world.rates.step_s) for _ in range(2))
-        rehearsed = Rehearsed(once, road)
-        alone = rehearsed if rehearsed.repeats(again) else road
+        if start not in world.alone:  # a slow policy is not driven again for every plan and take
+            once, again = (drives_alone(world.ego, start, world.rates.step_s) for _ in range(2))
+            rehearsed = Rehearsed(once, road)
+            world.alone[start] = rehearsed if rehearsed.repeats(again) else road
+        alone = world.alone[start]
     return (alone, road) if drive is None else (Rehearsed(drive, alone), Rehearsed(drive, road))
 
 

@@ -12,6 +12,7 @@ from scenewright.plan.prediction import ConstantSpeed, Predictor, predictor_call
 from scenewright.program.structure import Structure, read_structure
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
+from scenewright.simulate.ego_start import EgoFirstState
 from scenewright.simulate.loop import Rates
 from scenewright.simulate.port import SIMULATORS
 from scenewright.simulate.vehicles import EgoVehicle
@@ -34,6 +35,8 @@ class World:
         The scene as heroes are planned in it: what lasts is decided.
     witness
         How it can happen, if a check has found that.
+    alone
+        How the ego is foreseen from first states that it was driven alone from.
 
     Raises
     ------
@@ -53,6 +56,7 @@ class World:
     ) -> None:
         self.scene = self.planned = scene
         self.witness: Witness | None = None
+        self.alone: dict[EgoFirstState, Predictor] = {}
         self.rates = rates
         self.policy = load_policy(ego)
         guarded = GuardedPolicy(self.policy.policy, self.policy.name)
