@@ -5,13 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from scenewright.motion.limits import Limits, limits_on
 from scenewright.program.structure import Structure, read_structure
 from scenewright.program.text import parse_program
 from scenewright.program.types import Program
 from scenewright.roads.grounding import Scene, ground
 from scenewright.roads.load import load_map
 from scenewright.solve.feasibility import EgoBounds, Feasibility, Question, check_feasibility
-from scenewright.solve.limits import Limits, limits_on
 
 EXAMPLES = Path(__file__).resolve().parents[1] / "examples"
 INITIAL, TRIGGER, INTERACTION, OUTCOME = "initial", "trigger", "interaction", "outcome"

@@ -8,6 +8,7 @@ from functools import cache
 
 from scenewright.drive.guarded import GuardedPolicy
 from scenewright.drive.protocol import EgoPolicy, EgoStart, Observation
+from scenewright.motion.limits import Limits, Signs, limits_on
 from scenewright.orchestrate import orchestrate
 from scenewright.plan.planner import Attempt, Planner
 from scenewright.plan.prediction import Driver, Predictor
@@ -22,7 +23,6 @@ from scenewright.simulate.loop import Rates, Run, simulate
 from scenewright.simulate.port import Start
 from scenewright.simulate.vehicles import EgoVehicle
 from scenewright.solve.arrival import LinearCondition, linear_conditions
-from scenewright.solve.limits import Limits, Signs, limits_on
 from scenewright.solve.plan import Plan
 
 HERO = 1

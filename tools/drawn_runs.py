@@ -101,6 +101,8 @@ def main(folder: str, rates: str, first: str, end: str, takes: str = "1") -> Non
         result = drive(text, int(takes))
         status = "refused" if isinstance(result, ScenewrightError) else result.status
         counts[status] += 1
+        if isinstance(result, Result) and result.hindsight is not None:
+            counts["of these called impossible after the run"] += 1
         if status != "success":
             print(f"{seed}: {why(result)}", flush=True)
     print(", ".join(f"{status}: {count}" for status, count in counts.items()))

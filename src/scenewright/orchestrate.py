@@ -21,6 +21,7 @@ from scenewright.errors import ScenewrightError
 from scenewright.explain.approach import approach_of
 from scenewright.judge.tolerance import LOOSE, TIGHT, dimension_of
 from scenewright.judge.tolerance import Tolerance as Tolerances
+from scenewright.motion.limits import Limits
 from scenewright.program.check import check_values
 from scenewright.program.printer import print_program
 from scenewright.request import Report, Request, Result, Stages, Stop, Take
@@ -30,7 +31,6 @@ from scenewright.roads.load import load_map
 from scenewright.simulate.loop import Rates
 from scenewright.simulate.world import World
 from scenewright.solve.holding import not_held
-from scenewright.solve.limits import Limits
 from scenewright.translate.sources import read_scenario
 
 if TYPE_CHECKING:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+from scenewright.motion.limits import Signs
 from scenewright.plan.following import Leader
 from scenewright.plan.prediction import EgoSample
-from scenewright.solve.limits import Signs
 
 CRUISE_MPS = 13.9
 SIGNS = Signs((0.0,), (CRUISE_MPS,))

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from scenewright.motion.limits import Signs, limits_on
 from scenewright.plan.asked import Asked
 from scenewright.plan.planner import Planner
 from scenewright.plan.prediction import Driver
@@ -18,7 +19,6 @@ from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene, ground
 from scenewright.roads.load import load_map
 from scenewright.solve.arrival import linear_conditions
-from scenewright.solve.limits import Signs, limits_on
 from stories import STORIES
 
 Array = NDArray[np.float64]

@@ -95,7 +95,7 @@ def test_who_goes_second_waits_before_a_stretch_until_the_first_is_out(comes: bo
 def test_who_comes_to_a_bend_is_slow_enough_there_and_brakes_no_sooner_than_it_has_to(
     bend_m: float, speed_mps: float, comfortable_mps: float
 ) -> None:
-    along = np.arange(0.0, 300.0, 0.5)
+    along, bend_m = np.arange(0.0, 300.0, 0.5), 0.5 * round(2.0 * bend_m)
     comfortable = np.where((along >= bend_m) & (along <= bend_m + 20.0), comfortable_mps, NEVER)
     caps = Caps(along, 1.5 * comfortable, comfortable, *[np.full_like(along, NEVER)] * 2)
     motion = even(0.0, speed_mps)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 from situations import scene_of
 
+from scenewright.motion.limits import limits_on
 from scenewright.plan.alternatives import decided, planned_for
 from scenewright.program import expressions as ex
 from scenewright.program.evaluate import violation
@@ -12,7 +13,6 @@ from scenewright.program.printer import print_expression
 from scenewright.program.structure import read_structure
 from scenewright.roads.grounding import Scene
 from scenewright.solve.feasibility import Question, check_feasibility
-from scenewright.solve.limits import limits_on
 from scenewright.solve.plan import PlanWorld
 from scenewright.solve.proofs.witness import Witness
 from stories import program

@@ -10,6 +10,7 @@ from situations import HERO, driven_on, planner_of, scene_of
 
 from scenarios import BEHIND_ITSELF, FEASIBLE, TOO_FAST, YIELDS, Example, limits_of
 from scenewright.judge.tolerance import TIGHT, dimension_of
+from scenewright.motion.limits import Limits
 from scenewright.motion.profile import Profile, chain
 from scenewright.orchestrate import begin, orchestrate
 from scenewright.plan.planner import GOOD, Attempt, Planner
@@ -19,7 +20,6 @@ from scenewright.request import Request, Stages
 from scenewright.roads.grounding import Scene
 from scenewright.simulate.beginning import first_plan
 from scenewright.solve.holding import not_held
-from scenewright.solve.limits import Limits
 from scenewright.solve.plan import Plan, PlanWorld
 from scenewright.study.benchmark import benchmark_rows, draw_row
 from stories import BRAKES_GAP, STOPS_AHEAD, STOPS_AND_GOES, STORIES, YIELDS_DISTANCE, program

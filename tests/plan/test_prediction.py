@@ -15,6 +15,7 @@ from scenewright.drive.hostile import Noisy
 from scenewright.errors import InputError
 from scenewright.judge.judgement import judge
 from scenewright.judge.tolerance import TIGHT
+from scenewright.motion.limits import Signs
 from scenewright.motion.profile import Profile
 from scenewright.orchestrate import case_of
 from scenewright.plan.prediction import (
@@ -26,7 +27,6 @@ from scenewright.plan.prediction import (
 )
 from scenewright.roads.load import load_map
 from scenewright.roads.routes import Route, find_route
-from scenewright.solve.limits import Signs
 from stories import STORIES, Stage
 
 MAP = load_map("t_intersection")

@@ -9,9 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from scenewright.motion.limits import ROOM, calm_mpss
 from scenewright.plan.preferences import Preferences, preferences_of
 from scenewright.program.manner import NUMBERS, USUAL, Manner
-from scenewright.solve.limits import ROOM, calm_mpss
 
 # Which way is stricter; what a manner says nothing of is what it is.
 MORE = ("least_rate_mpss", "beginning_mpss", "beginning_s", "settled_s", "shortest_s", "shortest_stand_s", "stands_s")

@@ -6,13 +6,14 @@ import numpy as np
 import pytest
 
 from scenewright.judge.tolerance import TIGHT
+from scenewright.motion.limits import ACCEL_MAX_MPSS, BRAKE_MAX_MPSS
 from scenewright.orchestrate import orchestrate
 from scenewright.plan.planner import GOOD
 from scenewright.program.types import PieceKind
 from scenewright.request import Request
+from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.simulate.hindsight import ego_left_no_room
 from scenewright.simulate.loop import Run
-from scenewright.solve.limits import ACCEL_MAX_MPSS, BRAKE_MAX_MPSS
 from stories import HERO, STEP_S, STORIES, TICK_S, Scripted, Stage, driven, program
 
 TABLE = [
@@ -195,3 +196,18 @@ def test_what_follows_on_the_way_is_seen_for_what_it_is_and_takes_no_longer_than
     assert result.status == "success"
     assert result.run is not None
     assert result.run.trace.duration_s < 40.0
+
+
+def test_who_drives_on_behind_the_ego_does_not_run_into_it() -> None:
+    """What it was told to do is over when the ego brakes, and where it is to come to is still ahead."""
+    asked = "A0(t1) == A1(t1)\ngap(A1, A0, A0(t1)) == 14\nA1v(t1) == 15\nA1x(t2) == intersection + 60\n"
+    stage = Stage(
+        program("W", "t0, acc, t1, go, t2", asked + "A0x(t1) == intersection - 52\n"),
+        Scripted(lambda time_s, speed_mps: -3.0 if time_s > 6.0 and speed_mps > 6.0 else 0.0),
+    )
+    assert stage.begin(stage.scene.landmarks_m[0]["intersection"] - 100.0, 12.0).is_good
+    run = stage.run()
+    ego, hero = (run.trace.actors[name] for name in ("ego", "hero"))
+    assert hero_knots_s(run)["t1"] < 6.0
+    assert hero.s_m[-1] > stage.scene.landmarks_m[1]["intersection"] + 60.0
+    assert np.min(ego.s_m - hero.s_m) > VEHICLE_LENGTH_M

@@ -12,11 +12,11 @@ from scenewright.drive.protocol import EgoStart, Observation
 from scenewright.errors import InputError
 from scenewright.judge.files import judge_run_directory
 from scenewright.judge.tolerance import LOOSE, TIGHT
+from scenewright.motion.limits import Limits
 from scenewright.motion.profile import Profile, Segment
 from scenewright.plan import planner
 from scenewright.program.types import EGO
 from scenewright.request import Request, Result
-from scenewright.solve.limits import Limits
 from scenewright.study.rivals import METHODS, request_of, run_method
 from scenewright.study.rivals.script import SpeedAction
 

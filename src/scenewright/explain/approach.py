@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from scenewright.motion.limits import Signs
 from scenewright.program.structure import standstills
 from scenewright.program.types import PieceKind
-from scenewright.solve.limits import Signs
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

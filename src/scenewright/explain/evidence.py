@@ -14,6 +14,7 @@ import numpy as np
 
 from scenewright.judge.tolerance import LOOSE, TIGHT
 from scenewright.judge.verdict import Verdict
+from scenewright.motion.limits import Limits
 from scenewright.plan.planner import GOOD, Replan
 from scenewright.program.expressions import Compare, Elapsed
 from scenewright.program.types import EGO, Actor, Constraint
@@ -21,7 +22,6 @@ from scenewright.roads.routes import Route
 from scenewright.simulate.loop import Run
 from scenewright.simulate.world import World
 from scenewright.solve.arrival import linear_conditions, tight_of
-from scenewright.solve.limits import Limits
 from scenewright.trace.model import ActorTrace
 from scenewright.translate.lines import in_words, told_constraints
 from scenewright.translate.phrases import called

@@ -1,1 +1,1 @@
-"""Motion along one axis: profiles of acceleration that is even or changes evenly, and the laws that bound it."""
+"""Motion along one axis: profiles of acceleration that is even or changes evenly, laws and limits that bound it."""

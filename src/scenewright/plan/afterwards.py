@@ -10,12 +10,12 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 
+from scenewright.motion.limits import BRAKE_MAX_MPSS
 from scenewright.motion.profile import Profile, Segment
 from scenewright.plan.asked import Caps
 from scenewright.plan.pairs import Meeting, passes_s
 from scenewright.plan.preferences import Preferences
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
-from scenewright.solve.limits import BRAKE_MAX_MPSS
 
 _LEAST_ROOM_M = 0.05  # who has no more room than this brakes at once, as if it had so much, and no harder than cars can
 

@@ -15,6 +15,9 @@ from itertools import product
 import numpy as np
 from numpy.typing import NDArray
 
+from scenewright.algebra.compiled import Compiled
+from scenewright.algebra.polynomials import Atom, Polynomial, TooHigh
+from scenewright.motion.limits import Limits, Signs
 from scenewright.plan.preferences import preferences_of
 from scenewright.plan.triggers import adapts_until, beside_others
 from scenewright.program.structure import (
@@ -30,13 +33,10 @@ from scenewright.roads.grounding import Scene
 from scenewright.roads.model import RoadMap
 from scenewright.roads.routes import Route
 from scenewright.roads.turns import TurnSpan
-from scenewright.solve.limits import Limits, Signs
-from scenewright.solve.proofs.compiled import Compiled
 from scenewright.solve.proofs.events import EgoBounds, Events
 from scenewright.solve.proofs.forms import free_actors, lasting_places
 from scenewright.solve.proofs.lowering import Lowering
 from scenewright.solve.proofs.order import least_differences
-from scenewright.solve.proofs.polynomials import Atom, Polynomial, TooHigh
 
 Array = NDArray[np.float64]
 

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
+from scenewright.motion.limits import Signs
 from scenewright.motion.profile import Profile
 from scenewright.plan.clearance import Clearance
 from scenewright.plan.following import Leader, foresee_follower
@@ -18,7 +19,6 @@ from scenewright.program.structure import Structure
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import LinearCondition
-from scenewright.solve.limits import Signs
 
 _SHORTEST_S = 0.1  # in less time nothing can be answered
 _LITTLE = 0.1  # by so many metres, or metres a second, heroes are foreseen otherwise to ask for an answer
@@ -35,7 +35,7 @@ class Foresight:
     predictor, behind
         Foresee it where it follows nobody, and if it followed nobody where it does.
     signs
-        How fast people drive on its way.
+        How fast it drives on its way where it can.
     samples
         What was seen of it, in time order.
     """
@@ -68,6 +68,10 @@ class Foresight:
                 found[hero] = Clearance(ahead, offset_m, of_distance=False)
         self._on_lane |= found
         return bool(found)
+
+    def keeps_behind(self, hero: int) -> bool:
+        """Whether a hero is behind it on its lane all along."""
+        return hero in self._on_lane and not self._on_lane[hero].ahead and not self._on_lane[hero].since_m
 
     @property
     def _distances(self) -> dict[int, Clearance]:
@@ -116,7 +120,7 @@ class Foresight:
             trigger_s = motions[hero].knot_times_s.get(self.structure.trigger_knot(hero) or "", time_s)
             if trigger_s > time_s:
                 found[hero] = self._answer(motions[hero], clearance, (time_s, trigger_s), prediction, first=first)
-        return Lanes(apart, found, frozenset(self._distances))
+        return Lanes(apart, found, frozenset(self._distances), frozenset(filter(self.keeps_behind, apart)))
 
     def _answer(
         self, motion: Profile, clearance: Clearance, span_s: tuple[float, float], prediction: Profile, *, first: bool

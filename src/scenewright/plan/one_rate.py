@@ -12,17 +12,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import pairwise
 
-from scenewright.motion.profile import Profile, Segment
-from scenewright.plan.situation import States
-from scenewright.program import expressions as ex
-from scenewright.program.types import EGO, Actor, Constraint, PieceKind
-from scenewright.roads.grounding import Scene
-from scenewright.roads.turns import TurnSpan
-from scenewright.solve.limits import MOVING_MPS, ROOM, Limits
-from scenewright.solve.proofs.events import EgoBounds, Events, State
-from scenewright.solve.proofs.forms import compared_dimension
-from scenewright.solve.proofs.lowering import Lowering
-from scenewright.solve.proofs.polynomials import (
+from scenewright.algebra.polynomials import (
     FALSE,
     TRUE,
     ZERO,
@@ -39,6 +29,16 @@ from scenewright.solve.proofs.polynomials import (
     polynomial,
     some,
 )
+from scenewright.motion.limits import MOVING_MPS, ROOM, Limits
+from scenewright.motion.profile import Profile, Segment
+from scenewright.plan.situation import States
+from scenewright.program import expressions as ex
+from scenewright.program.types import EGO, Actor, Constraint, PieceKind
+from scenewright.roads.grounding import Scene
+from scenewright.roads.turns import TurnSpan
+from scenewright.solve.proofs.events import EgoBounds, Events, State
+from scenewright.solve.proofs.forms import compared_dimension
+from scenewright.solve.proofs.lowering import Lowering
 from scenewright.units import pin
 
 # What happened is told in 0.1 mm: an equality of that and of what comes may be off by so many tight tolerances.

@@ -14,6 +14,7 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
+from scenewright.motion.limits import ROOM
 from scenewright.motion.profile import Profile
 from scenewright.plan.preferences import Preferences
 from scenewright.plan.rows import Columns, Rows
@@ -24,7 +25,6 @@ from scenewright.roads.bodies import CAR, VEHICLE_LENGTH_M, Body
 from scenewright.roads.conflicts import conflicts, shared_stretches
 from scenewright.roads.grounding import Scene
 from scenewright.roads.zones import Zone, overlap
-from scenewright.solve.limits import ROOM
 
 Array = NDArray[np.float64]
 Along = tuple[Array, Array, Array]

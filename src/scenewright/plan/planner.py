@@ -215,10 +215,14 @@ class Planner(Standing):
         return record
 
     def _go_on(self, time_s: float) -> None:
-        """Let heroes whose plan is over brake for bends, and keep clear of those that go first, the ego too."""
+        """Let heroes whose plan is over brake for bends, and keep clear of those that go first, the ego too.
+
+        Whoever is behind the ego does so from its last knot on.
+        """
         profiles = dict(self.plan.profiles)
+        lasts_s = {hero.id: 0.0 if self._ego.keeps_behind(hero.id) else AFTER_LAST_S for hero in self._heroes}
         over = [
-            hero.id for hero in self._heroes if max(profiles[hero.id].knot_times_s.values()) + AFTER_LAST_S <= time_s
+            hero for hero, more_s in lasts_s.items() if max(profiles[hero].knot_times_s.values()) + more_s <= time_s
         ]
         if not over:
             return

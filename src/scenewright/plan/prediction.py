@@ -13,10 +13,10 @@ from itertools import pairwise, takewhile
 from typing import Protocol
 
 from scenewright.errors import InputError
+from scenewright.motion.limits import Signs
 from scenewright.motion.profile import Profile, chain
 from scenewright.roads.routes import Route
 from scenewright.roads.turns import TurnSpan
-from scenewright.solve.limits import Signs
 
 # (time_s, s_m, speed_mps, accel_mpss) of one past step.
 EgoSample = tuple[float, float, float, float]

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from scenewright.motion.limits import ROOM, calm_mpss
 from scenewright.program.manner import USUAL, Manner
-from scenewright.solve.limits import ROOM, calm_mpss
 
 
 @dataclass(frozen=True, slots=True)

@@ -275,8 +275,14 @@ class HeroRows:
             # Nobody begins within a junction or beyond its turn, unless the program puts it there.
             self.bounds.add(shot.s[0] - begins_m, shot.d_s[0], wanted.out_of_way_price, wanted.out_of_way_most)
         number, first = self._trigger_leg(), 1 if hero in self.now.heroes else 0
-        if hero in self.now.lanes.apart and (number is not None or hero in self.asked.beside):
-            self._apart(slice(first, shot.first_node[-2 if number is None else number] + 1))
+        if hero in self.now.lanes.apart:
+            acts = len(shot.legs) - 1 if hero in self.asked.beside else 0 if number is None else number
+            if acts:
+                self._apart(slice(first, shot.first_node[acts] + 1))
+            if hero in self.now.lanes.behind:  # nor does it run into the ego where it just drives on behind it
+                for later, leg in enumerate(shot.legs[acts:], acts):
+                    if leg.kind is PieceKind.GO:
+                        self._apart(slice(shot.first_node[later] + 1, shot.first_node[later + 1] + 1))
         if number is None:
             return
         last = shot.first_node[number]
@@ -306,7 +312,7 @@ class HeroRows:
         ego = np.array([self.now.ego(time_s)[:2] for time_s in shot.time[nodes].tolist()])
         room_m = side * (shot.s[nodes] + offset_m - ego[:, 0]) - VEHICLE_LENGTH_M - wanted.clear_of_ego_m
         slopes = -side * (shot.d_s[nodes] - ego[:, 1:] * shot.d_time[nodes])
-        if side < 0.0 and self.hero.id not in self.now.heroes:  # whoever begins behind it does not tailgate
+        if side < 0.0 and nodes.start == 0:  # whoever begins behind it does not tailgate
             room_m[0] -= TAILGATES_S * shot.v[0]
             slopes[0] += TAILGATES_S * shot.d_v[0]
         self.bounds.add_all(-room_m, slopes, wanted.price / _TIGHT_LENGTH, wanted.out_of_way_most)

@@ -13,9 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from scenewright.motion.limits import BRAKE_MAX_MPSS
 from scenewright.motion.profile import Profile, Segment
 from scenewright.program.types import PieceKind
-from scenewright.solve.limits import BRAKE_MAX_MPSS
 
 Array = NDArray[np.float64]
 Columns = NDArray[np.intp]

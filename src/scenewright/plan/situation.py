@@ -65,11 +65,14 @@ class Lanes:
         For each hero that the ego follows, how.
     plainly
         Heroes whose trigger speaks of the distance: it is to change plainly there.
+    behind
+        Heroes that are behind it on its lane from the start on.
     """
 
     apart: Mapping[int, tuple[float, float]] = field(default_factory=dict)
     answers: Mapping[int, Answer] = field(default_factory=dict)
     plainly: frozenset[int] = frozenset()
+    behind: frozenset[int] = frozenset()
 
 
 @dataclass(frozen=True, slots=True)

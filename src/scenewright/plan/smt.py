@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import product
 
+from scenewright.motion.limits import Limits
 from scenewright.motion.profile import Profile, Segment
 from scenewright.plan.one_rate import OneRate, Past, Question
 from scenewright.plan.planner import Attempt, Replan
@@ -21,7 +22,6 @@ from scenewright.plan.problem import Missed
 from scenewright.plan.situation import SeenAndForeseen
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
-from scenewright.solve.limits import Limits
 from scenewright.solve.plan import Plan
 from scenewright.solve.proofs.events import EgoBounds
 from scenewright.solve.proofs.refuters import Answer

@@ -11,6 +11,7 @@ from dataclasses import InitVar, dataclass, field
 
 import numpy as np
 
+from scenewright.motion.limits import Limits, Signs
 from scenewright.motion.profile import Profile, chain
 from scenewright.plan.asked import Asked
 from scenewright.plan.foresight import Foresight
@@ -23,7 +24,6 @@ from scenewright.program.structure import Role, Structure, actors_of, knots_of, 
 from scenewright.program.types import EGO, Actor, PieceKind
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import LinearCondition, linear_conditions
-from scenewright.solve.limits import Limits, Signs
 from scenewright.solve.plan import Plan
 from scenewright.solve.proofs.forms import free_actors, lasting_places
 from scenewright.solve.proofs.witness import Witness
@@ -53,6 +53,8 @@ class Standing:
         How it can happen, if that is known.
     behind
         Foresees the ego where it follows a hero, on top of what that makes of it; None: as elsewhere.
+    signs
+        How fast the ego drives where it can; None: as its road is signed.
     plan
         The motion that is being carried out.
     ego_knots_s
@@ -66,6 +68,7 @@ class Standing:
     conditions: tuple[LinearCondition, ...]
     witness: Witness | None = None
     behind: InitVar[Predictor | None] = None
+    signs: InitVar[Signs | None] = None
     plan: Plan = field(init=False)
     ego_knots_s: dict[str, float] = field(init=False, default_factory=dict)
     _asked: Asked = field(init=False)
@@ -76,13 +79,13 @@ class Standing:
     _reactive: dict[int, list[int]] = field(init=False, default_factory=dict)  # pieces after the trigger
     _joint_s: dict[int, float] = field(init=False, default_factory=dict)  # first planned, where both decide when
 
-    def __post_init__(self, predictor: Predictor, behind: Predictor | None) -> None:
+    def __post_init__(self, predictor: Predictor, behind: Predictor | None, signs: Signs | None) -> None:
         self._asked = Asked(self.scene, self.structure, self.limits)
         for hero, until in self._asked.adapts_until.items():
             actor = self.scene.program.actor(hero)
             self._reactive[hero] = [*self._reactive_pieces(actor, actor.sketch.knot_index(until))]
         self._times = TriggerTimes(self.scene, self.structure, self.conditions)
-        signs = Signs.of(self.scene.routes[EGO], self.scene.road_map)
+        signs = signs or Signs.of(self.scene.routes[EGO], self.scene.road_map)
         told = linear_conditions(self.scene, self.structure, with_bounds=True)
         self._ego = Foresight(self.scene, self.structure, told, predictor, behind or predictor, signs)
 
@@ -258,7 +261,7 @@ class Standing:
         """Return the piece from which on a hero is still solved for, or None once it only carries out.
 
         Before its trigger (or what hangs on another's) that is the piece it is in. After it, that in which it answers
-        the ego.
+        the ego, or just drives on behind it.
         """
         times, sketch = self.plan.profiles[hero.id].knot_times_s, hero.sketch
         soon_s = time_s + SHORTEST_LEAD_S  # what comes sooner could only be put off
@@ -268,7 +271,15 @@ class Standing:
             return None
         if current < sketch.knot_index(trigger):
             return current
-        return next((reactive for reactive in self._reactive[hero.id] if current <= reactive), None)
+        behind = self._ego.keeps_behind(hero.id)
+        return next(
+            (
+                piece
+                for piece in range(max(current, sketch.knot_index(trigger)), len(sketch.pieces))
+                if piece in self._reactive[hero.id] or (behind and sketch.pieces[piece] is PieceKind.GO)
+            ),
+            None,
+        )
 
     def _reactive_pieces(self, hero: Actor, trigger: int) -> Iterator[int]:
         """Yield the pieces after the trigger in which a hero answers the ego.

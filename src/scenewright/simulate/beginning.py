@@ -14,6 +14,7 @@ from functools import partial
 from itertools import product
 
 from scenewright.errors import PolicyError
+from scenewright.motion.limits import Limits, Signs
 from scenewright.motion.profile import Profile
 from scenewright.plan.planner import GOOD, Attempt, Planner
 from scenewright.plan.prediction import ConstantSpeed, Predictor
@@ -33,7 +34,8 @@ from scenewright.simulate.port import Start
 from scenewright.simulate.world import World
 from scenewright.solve.arrival import linear_conditions, of_ego
 from scenewright.solve.feasibility import Question, check_feasibility
-from scenewright.solve.limits import Limits
+from scenewright.solve.holding import not_held
+from scenewright.solve.proofs.forms import TIGHT, compared_dimension
 from scenewright.units import pin
 
 # Who is further off than along a shared road by so much is not on it yet; chosen, lanes are 3 m apart.
@@ -58,7 +60,7 @@ def first_plan(
     """
     limits = {actor: own if actor == EGO else own.at_pace(pace) for actor, own in world.limits.items()}
     plan, steps, best = partial(_Planned, world, limits, drive), 0, None
-    for start in _starts(world):
+    for start in first_states(world):
         # An ego that does not hold its speed may still let come about what no plan promises.
         if start.last_resort and best is not None and best.is_good and not world.ego_bounds.holds_speed:
             break
@@ -76,32 +78,37 @@ def first_plan(
 class _Planned:
     """What is planned from a start, whom only hard braking saves the ego from, and whether it touches a hero.
 
-    And whether a trigger comes too soon for what is to be seen before it.
+    And whether a trigger comes too soon for what is to be seen before it, or the ego breaks what it is asked for.
     """
 
     def __init__(
         self, world: World, limits: Mapping[int, Limits], drive: Profile | None, scene: Scene, start: EgoFirstState
     ) -> None:
-        structure, (alone, behind) = read_structure(scene.program), _foreseen(world, start, drive)
+        structure, (alone, behind, signs) = read_structure(scene.program), _foreseen(world, start, drive)
         conditions = linear_conditions(scene, structure)
-        self.start, self.planner = start, Planner(scene, structure, limits, alone, conditions, world.witness, behind)
+        self.planner = Planner(scene, structure, limits, alone, conditions, world.witness, behind, signs)
+        self.start = start
         self.attempt = self.planner.begin((0.0, start.s_m, start.speed_mps, start.accel_mpss))
         seen_s, motions = float(scene.program.manner.settled_s), self.attempt.plan.profiles
         triggers = {hero: structure.trigger_knot(hero) or "" for hero in structure.triggers}
         self.too_soon = any(motions[hero].knot_times_s[knot] < seen_s for hero, knot in triggers.items())
         self.saved_from, self.touches = _saved_and_touched(world, start, self.attempt)
+        # Of an ego that holds its speed the start decides what it does at any moment.
+        broken = not_held(scene, motions, compared_dimension, lambda dimension: float(TIGHT[dimension or "time"]))
+        self.breaks = world.ego_bounds.holds_speed and any(True for _ in broken)
 
     @property
     def is_good(self) -> bool:
         """Whether it does what was asked, nobody is saved or touched, and all is seen."""
-        return self.attempt.is_good and not (self.saved_from or self.touches or self.too_soon)
+        return self.attempt.is_good and not (self.saved_from or self.touches or self.too_soon or self.breaks)
 
     @property
     def rank(self) -> tuple[bool, bool, float, float]:
         """How it compares with others: nobody is saved or touched, it does what it should, misses little."""
         missed = 0.0 if self.attempt.is_good else round(self.attempt.missed.by / GOOD)
         late_s = round(max(0.0, self.attempt.missed.late_s), 1)
-        return bool(self.saved_from) or self.touches, self.too_soon or not self.attempt.is_good, late_s, missed
+        falls_short = self.too_soon or self.breaks or not self.attempt.is_good
+        return bool(self.saved_from) or self.touches, falls_short, late_s, missed
 
 
 def _plan_from(world: World, start: EgoFirstState, plan: Callable[[Scene, EgoFirstState], _Planned]) -> _Planned:
@@ -123,19 +130,22 @@ def _plan_from(world: World, start: EgoFirstState, plan: Callable[[Scene, EgoFir
     return plan(_kept_apart(world.planned, found.saved_from, start.speed_mps), found.start)
 
 
-def _foreseen(world: World, start: EgoFirstState, drive: Profile | None) -> tuple[Predictor, Predictor]:
-    """Return how the ego is foreseen where it follows nobody, and where it does.
+def _foreseen(world: World, start: EgoFirstState, drive: Profile | None) -> tuple[Predictor, Predictor, Signs]:
+    """Return how the ego is foreseen where it follows nobody, and where it does; and how fast it drives if it can.
 
-    To drive as in the last take, else, unless it follows, as it does alone each time, else as the road has it.
+    To drive as in the last take, else, unless it follows, as it does alone each time, else as the road has it. Behind
+    somebody it is no faster than alone.
     """
     road = alone = world.predictor
+    signs = Signs.of(world.scene.routes[EGO], world.scene.road_map)
     if not (isinstance(road, ConstantSpeed) or world.simulator.capabilities.drives_ego):
         if start not in world.alone:  # a slow policy is not driven again for every plan and take
             once, again = (drives_alone(world.ego, start, world.rates.step_s) for _ in range(2))
-            rehearsed = Rehearsed(once, road)
-            world.alone[start] = rehearsed if rehearsed.repeats(again) else road
-        alone = world.alone[start]
-    return (alone, road) if drive is None else (Rehearsed(drive, alone), Rehearsed(drive, road))
+            seen = Rehearsed(once, road)
+            world.alone[start] = seen if seen.repeats(again) else None
+        if (rehearsed := world.alone[start]) is not None:
+            alone, signs = rehearsed, signs.as_driven(rehearsed.drive)
+    return (alone, road, signs) if drive is None else (Rehearsed(drive, alone), Rehearsed(drive, road), signs)
 
 
 def _saved_and_touched(world: World, start: EgoFirstState, attempt: Attempt) -> tuple[list[int], bool]:
@@ -194,7 +204,7 @@ def first_plan_of_smt(world: World) -> tuple[HeroDriver, EgoFirstState, Attempt]
     from scenewright.plan.smt import SmtPlanner
 
     why = ""
-    for start in _starts(world):
+    for start in first_states(world):
         planner = SmtPlanner(world.scene, world.limits, world.ego_bounds)
         if planner.refused:
             return f"the SMT planner cannot take {planner.refused}"
@@ -215,7 +225,7 @@ def is_timed_by_ego(world: World) -> bool:
     return any(each.weights.get(EGO, (0.0, 0.0))[1] and each.moments & triggers for each in conditions)
 
 
-def _starts(world: World) -> Iterator[EgoFirstState]:
+def first_states(world: World) -> Iterator[EgoFirstState]:
     """Yield what the policy would hold, and at last the first state in which an ego that holds its speed makes it.
 
     That is shifted, unless the program says where it begins, for an ego that does not hold its speed to be on time too.

@@ -15,13 +15,13 @@ from itertools import pairwise
 import numpy as np
 
 from scenewright.errors import PolicyError
+from scenewright.motion.limits import MOVING_MPS, Limits
 from scenewright.motion.profile import Profile, Segment
 from scenewright.program.structure import Structure
 from scenewright.program.types import EGO, PieceKind
 from scenewright.roads.grounding import Scene
 from scenewright.simulate.vehicles import EgoVehicle
 from scenewright.solve.arrival import LinearCondition, knot_between_s
-from scenewright.solve.limits import MOVING_MPS, Limits
 
 _RUN_UP_M = 90.0
 # Before it comes to its first place, where the program does not say when that is, but no longer than heroes take for

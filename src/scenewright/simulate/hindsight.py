@@ -11,13 +11,13 @@ from itertools import pairwise
 
 import numpy as np
 
+from scenewright.motion.limits import Limits
 from scenewright.motion.profile import Profile, Segment
 from scenewright.program.structure import Structure, knots_of
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import TIGHT_TIME_S, LinearCondition, linear_conditions, tight_of
 from scenewright.solve.feasibility import Feasibility, Question, check_feasibility
-from scenewright.solve.limits import Limits
 from scenewright.trace.model import ActorTrace, Trace
 
 _STRETCH_S = 0.1
@@ -45,15 +45,17 @@ def ego_left_no_room(
     moments = _moments_at(side, motion, trace.duration_s)
     if not 0 < len(moments) <= _MOST_MOMENTS:
         return None
-    proof: Feasibility | None = None
+    proof, bending = None, frozenset(hero.id for hero in scene.program.heroes)
     for moment_s in moments:
         knots = _ego_knots(conditions, motion, {names[0]: 0.0, trigger: moment_s}, names, trace.duration_s)
         drive = Profile(motion.segments, knots)
-        found = check_feasibility(Question(scene, structure, limits, drive=drive), explain=proof is None)
+        question = Question(scene, structure, limits, drive=drive, bending=bending)
+        found = check_feasibility(question, explain=proof is None)
         if found.answer != "infeasible":
             return None
         proof = proof or found
-    return proof
+    # One that names no constraint rests on the order of the ego's knots alone.
+    return proof if proof is not None and any(clash.formula for clash in proof.clashes) else None
 
 
 def _moments_at(side: LinearCondition, motion: Profile, end_s: float) -> list[float]:
@@ -81,14 +83,14 @@ def _ego_knots(
     end_s: float,
 ) -> dict[str, float]:
     """Return when the ego passed all its knots, had it passed some then; long after the end where it never did."""
-    knots = dict(told_s)
-    for name in names[1:]:
+    knots, since_s = dict(told_s), 0.0
+    for name in names:
         condition = next((c for c in conditions if c.moments == {(EGO, name)}), None)
-        if name in knots or condition is None:
-            continue
-        time_s = condition.first_time({EGO: motion}, max(knots.values()))
-        if time_s is not None and time_s <= end_s:
-            knots[name] = time_s
+        if name not in knots and condition is not None:
+            time_s = condition.first_time({EGO: motion}, since_s)
+            if time_s is not None and time_s <= end_s:
+                knots[name] = time_s
+        since_s = max(since_s, knots.get(name, 0.0))
     return dict.fromkeys(names, end_s + 60.0) | knots
 
 

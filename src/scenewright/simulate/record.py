@@ -20,12 +20,12 @@ from typing import Any
 
 from scenewright import __version__
 from scenewright.errors import OutputError, Place
+from scenewright.motion.limits import Limits
 from scenewright.program.printer import print_program
 from scenewright.roads.bodies import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M
 from scenewright.roads.conflicts import shared_offset_m
 from scenewright.roads.grounding import Scene
 from scenewright.simulate.loop import Run
-from scenewright.solve.limits import Limits
 from scenewright.solve.plan import SCHEMA_VERSION
 from scenewright.trace.files import TRACE_FILE, write_trace
 from scenewright.translate.lines import lines_of_program

@@ -10,12 +10,12 @@ from dataclasses import dataclass, field
 
 from scenewright.drive.guarded import GuardedPolicy
 from scenewright.drive.protocol import EgoMotion, EgoStart, Observation, VehicleState
+from scenewright.motion.limits import DEFAULT_SPEED_LIMIT_MPS
 from scenewright.roads.bodies import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M
 from scenewright.roads.grounding import Scene
 from scenewright.roads.model import RoadMap
 from scenewright.roads.routes import Route
 from scenewright.simulate.port import at_pose, on_route
-from scenewright.solve.limits import DEFAULT_SPEED_LIMIT_MPS
 from scenewright.trace.model import ActorState
 
 

@@ -11,6 +11,7 @@ from itertools import combinations
 
 import numpy as np
 
+from scenewright.motion.limits import Limits
 from scenewright.motion.profile import Profile
 from scenewright.plan.afterwards import goes_on
 from scenewright.plan.asked import Caps, caps_of
@@ -21,7 +22,6 @@ from scenewright.roads.grounding import Scene
 from scenewright.roads.routes import Route
 from scenewright.roads.zones import overlap
 from scenewright.simulate.loop import DEFAULT_STEP_S, Run
-from scenewright.solve.limits import Limits
 from scenewright.solve.plan import Plan
 from scenewright.solve.proofs.witness import Witness
 from scenewright.trace.model import ActorTrace, FloatArray, Trace

@@ -7,8 +7,10 @@ from __future__ import annotations
 
 from scenewright.drive.guarded import GuardedPolicy
 from scenewright.drive.loading import load_policy
+from scenewright.motion.limits import Limits, Signs, limits_on
 from scenewright.plan.alternatives import planned_for
 from scenewright.plan.prediction import ConstantSpeed, Predictor, predictor_called
+from scenewright.plan.rehearsal import Rehearsed
 from scenewright.program.structure import Structure, read_structure
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
@@ -17,7 +19,6 @@ from scenewright.simulate.loop import Rates
 from scenewright.simulate.port import SIMULATORS
 from scenewright.simulate.vehicles import EgoVehicle
 from scenewright.solve.feasibility import EgoBounds, Feasibility, Question
-from scenewright.solve.limits import Limits, Signs, limits_on
 from scenewright.solve.parameters import settle
 from scenewright.solve.proofs.refuters import SOLVERS
 from scenewright.solve.proofs.witness import Witness
@@ -36,7 +37,7 @@ class World:
     witness
         How it can happen, if a check has found that.
     alone
-        How the ego is foreseen from first states that it was driven alone from.
+        How the ego drives alone from first states that it was driven from; None where it drives otherwise each time.
 
     Raises
     ------
@@ -56,7 +57,7 @@ class World:
     ) -> None:
         self.scene = self.planned = scene
         self.witness: Witness | None = None
-        self.alone: dict[EgoFirstState, Predictor] = {}
+        self.alone: dict[EgoFirstState, Rehearsed | None] = {}
         self.rates = rates
         self.policy = load_policy(ego)
         guarded = GuardedPolicy(self.policy.policy, self.policy.name)

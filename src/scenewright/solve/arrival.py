@@ -12,17 +12,17 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
+from scenewright.algebra.polynomials import ZERO, Monomial, Polynomial, atoms
+from scenewright.motion.limits import Limits
 from scenewright.motion.profile import Profile
 from scenewright.program.expressions import Compare
 from scenewright.program.structure import KnotKey, Structure, knots_of
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
-from scenewright.solve.limits import Limits
 from scenewright.solve.proofs.events import EgoBounds, Events
 from scenewright.solve.proofs.forms import TIGHT
 from scenewright.solve.proofs.lowering import Lowering
 from scenewright.solve.proofs.order import least_differences
-from scenewright.solve.proofs.polynomials import ZERO, Monomial, Polynomial, atoms
 
 HORIZON_S = 90.0
 _ANYBODY = Limits(60.0, 60.0, 60.0, 60.0, 60.0, 60.0)

@@ -12,16 +12,16 @@ from fractions import Fraction
 from itertools import combinations, pairwise
 from typing import Any
 
+from scenewright.algebra.polynomials import ZERO, Formula, Named, compare, every, some
 from scenewright.errors import ScenewrightError
+from scenewright.motion.limits import limits_on
 from scenewright.program import expressions as ex
 from scenewright.program.printer import print_expression
 from scenewright.program.types import Actor, Constraint, PieceKind, Program, Sketch
 from scenewright.roads.grounding import Scene, ground
 from scenewright.roads.load import load_map
-from scenewright.solve.limits import limits_on
 from scenewright.solve.proofs.events import EgoBounds, Events
 from scenewright.solve.proofs.lowering import Lowering
-from scenewright.solve.proofs.polynomials import ZERO, Formula, Named, compare, every, some
 from scenewright.solve.proofs.refuters import SOLVERS
 
 _TIMEOUT_S = 2.0

@@ -11,11 +11,11 @@ import re
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
+from scenewright.motion.limits import Limits, limits_on
 from scenewright.program.structure import read_structure
 from scenewright.program.text import parse_program
 from scenewright.roads import load_map
 from scenewright.roads.grounding import Scene, ground
-from scenewright.solve.limits import Limits, limits_on
 from scenewright.solve.proofs.decide import Question
 from scenewright.solve.proofs.events import EgoBounds, Events
 from scenewright.solve.proofs.lowering import Lowering

@@ -5,12 +5,12 @@ from __future__ import annotations
 import time
 
 import pytest
-from posed import UNKNOWNS, X, Y, asked, named
 
+from posed import UNKNOWNS, X, Y, asked, named
+from scenewright.algebra.polynomials import compare, some
 from scenewright.errors import SolverError
 from scenewright.solve.proofs import cvc5_engine
 from scenewright.solve.proofs.cvc5_engine import Cvc5
-from scenewright.solve.proofs.polynomials import compare, some
 
 
 def test_it_answers_and_names_what_clashes() -> None:

@@ -9,12 +9,12 @@ from fractions import Fraction
 import pytest
 from planted import EGO, T, limits_of, plant
 
+from scenewright.algebra.polynomials import Named, Unknown
 from scenewright.program.structure import read_structure
 from scenewright.program.text import parse_program
 from scenewright.roads.grounding import ground
 from scenewright.solve.proofs.decide import Decision, Question, decide
 from scenewright.solve.proofs.events import EgoBounds
-from scenewright.solve.proofs.polynomials import Named, Unknown
 from scenewright.solve.proofs.refuters import Answer, Capabilities
 from scenewright.solve.proofs.witness import broken
 

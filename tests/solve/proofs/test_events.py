@@ -6,10 +6,10 @@ from fractions import Fraction
 
 from planted import EGO, T, limits_of
 
+from scenewright.algebra.polynomials import unknown
 from scenewright.program.text import parse_program
 from scenewright.roads.grounding import Scene, ground
 from scenewright.solve.proofs.events import EgoBounds, Events
-from scenewright.solve.proofs.polynomials import unknown
 
 TEXT = """Actor 0 (ego):
 - W

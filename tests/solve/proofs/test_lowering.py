@@ -6,9 +6,10 @@ from fractions import Fraction
 
 import pytest
 from planted import T, limits_of, lowered, plant
-from posed import violation
 from test_relaxation import values_of
 
+from posed import violation
+from scenewright.algebra.polynomials import atoms
 from scenewright.motion.profile import Profile, chain
 from scenewright.program.evaluate import violation as violation_of_motion
 from scenewright.program.text import parse_program
@@ -17,7 +18,6 @@ from scenewright.solve.plan import PlanWorld
 from scenewright.solve.proofs.events import EgoBounds, Events
 from scenewright.solve.proofs.lowering import Lowering
 from scenewright.solve.proofs.narrowing import Narrowing
-from scenewright.solve.proofs.polynomials import atoms
 
 FORMS = [
     "A1x(t1) == 90", "A1v(t1) <= 6", "A1v(A0(t2)) >= 4", "A1x(2.0) <= 100", "A1(t2) - A1(t1) >= 2 s", "A1(t1) < A0(t2)",

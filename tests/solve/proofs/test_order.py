@@ -5,15 +5,15 @@ from __future__ import annotations
 from fractions import Fraction
 
 import pytest
-from posed import UNKNOWNS, X, Y
 from test_events import events_of
 
+from posed import UNKNOWNS, X, Y
+from scenewright.algebra.polynomials import compare, every, some
 from scenewright.solve.proofs.order import (
     closed,
     least_differences,
     tightened,
 )
-from scenewright.solve.proofs.polynomials import compare, every, some
 
 
 def test_what_is_certain_of_the_order() -> None:

@@ -10,13 +10,13 @@ from pathlib import Path
 
 import pytest
 from planted import T, lowered
-from posed import UNKNOWNS, X, Y, at_random, eased, named, violation
 
 from forms import FORMS, program
+from posed import UNKNOWNS, X, Y, at_random, eased, named, violation
+from scenewright.algebra.polynomials import Named, Unknown, compare, needed, some
 from scenewright.errors import InputError, MissingExtraError, SolverError
 from scenewright.program.text import parse_program
 from scenewright.roads.grounding import ground
-from scenewright.solve.proofs.polynomials import Named, Unknown, compare, needed, some
 from scenewright.solve.proofs.refuters import (
     GROUP,
     SOLVERS,

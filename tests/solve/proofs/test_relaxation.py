@@ -8,16 +8,16 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from planted import Motion, Planted, lowered, plant
-from posed import violation
 from scipy.optimize import linprog
 
+from posed import violation
+from scenewright.algebra.polynomials import resting_on
+from scenewright.motion.limits import limits_on
 from scenewright.program.text import parse_program
 from scenewright.roads.grounding import ground
 from scenewright.roads.load import load_map
-from scenewright.solve.limits import limits_on
 from scenewright.solve.proofs.events import EgoBounds, Events
 from scenewright.solve.proofs.lowering import Lowering
-from scenewright.solve.proofs.polynomials import resting_on
 from scenewright.solve.proofs.refinement import Refinement
 from scenewright.solve.proofs.refuters import SOLVERS
 from scenewright.solve.proofs.relaxation import EVEN_RATE, relaxation

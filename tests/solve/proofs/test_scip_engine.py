@@ -7,7 +7,7 @@ from fractions import Fraction
 import pytest
 from posed import UNKNOWNS, X, Y, named, violation
 
-from scenewright.solve.proofs.polynomials import FALSE, compare, every, some, unknown
+from scenewright.algebra.polynomials import FALSE, compare, every, some, unknown
 
 pytest.importorskip("pyscipopt", reason="the extra scip is not installed")
 

@@ -7,15 +7,15 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from planted import T, limits_of, plant
-from posed import violation
 
+from posed import violation
+from scenewright.algebra.polynomials import compare
 from scenewright.motion.laws import holds, reach
 from scenewright.program.text import parse_program
 from scenewright.roads.grounding import ground
 from scenewright.solve.proofs.events import EgoBounds, Events
 from scenewright.solve.proofs.guesses import first_guess
 from scenewright.solve.proofs.lowering import Lowering
-from scenewright.solve.proofs.polynomials import compare
 from scenewright.solve.proofs.search import Search
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from posed import UNKNOWNS, X, Y, named
 
-from scenewright.solve.proofs.polynomials import compare, some
+from scenewright.algebra.polynomials import compare, some
 from scenewright.solve.proofs.z3_engine import Z3
 
 

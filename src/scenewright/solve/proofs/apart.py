@@ -10,13 +10,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
+from scenewright.algebra.polynomials import Formula, Named, Polynomial, compare, every, some
 from scenewright.program import expressions as ex
 from scenewright.program.structure import KnotKey, Structure, placed_at
 from scenewright.program.types import EGO, Constraint
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.roads.conflicts import Stretch, shared_stretches
 from scenewright.solve.proofs.events import Events
-from scenewright.solve.proofs.polynomials import Formula, Named, Polynomial, compare, every, some
 from scenewright.units import format_fraction, pin
 
 APART = "orchestrated actors keep clear of each other"

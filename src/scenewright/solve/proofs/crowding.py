@@ -12,6 +12,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from scenewright.algebra.polynomials import Named, needed
 from scenewright.program.structure import actors_of, placed_at, read_structure, synchronised
 from scenewright.program.types import EGO, Program
 from scenewright.roads.bodies import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M, Body
@@ -21,7 +22,6 @@ from scenewright.roads.zones import overlap
 from scenewright.solve.proofs.apart import APART
 from scenewright.solve.proofs.events import Events
 from scenewright.solve.proofs.order import least_differences, places_within
-from scenewright.solve.proofs.polynomials import Named, needed
 from scenewright.units import pin
 
 Array = NDArray[np.float64]

@@ -12,9 +12,9 @@ import sys
 import time
 from collections.abc import Sequence
 
+from scenewright.algebra.polynomials import Named, Unknown, smtlib
 from scenewright.errors import SolverError
 from scenewright.solve.proofs.order import tightened
-from scenewright.solve.proofs.polynomials import Named, Unknown, smtlib
 from scenewright.solve.proofs.refuters import Answer, Capabilities
 
 _START_S = 1.0  # what a process may take to start, on a busy machine

@@ -15,17 +15,17 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from scenewright.algebra.polynomials import ZERO, Formula, Named, Unknown, needed, resting_on
+from scenewright.motion.limits import Limits
 from scenewright.motion.profile import Profile
 from scenewright.program.structure import Structure, actors_of
 from scenewright.program.types import EGO, Constraint
 from scenewright.roads.grounding import Scene
-from scenewright.solve.limits import Limits
 from scenewright.solve.proofs.apart import apart
 from scenewright.solve.proofs.crowding import crowded
 from scenewright.solve.proofs.events import LONGEST_S, EgoBounds, Events
 from scenewright.solve.proofs.guesses import carried_over, first_guess
 from scenewright.solve.proofs.lowering import Lowering
-from scenewright.solve.proofs.polynomials import ZERO, Formula, Named, Unknown, needed, resting_on
 from scenewright.solve.proofs.refinement import Refinement
 from scenewright.solve.proofs.refuters import SOLVERS, Refuter
 from scenewright.solve.proofs.relaxation import relaxation

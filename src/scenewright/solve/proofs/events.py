@@ -12,14 +12,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import pairwise
 
-from scenewright.motion.laws import Law
-from scenewright.motion.profile import Profile
-from scenewright.program.structure import KnotKey, read_structure
-from scenewright.program.types import EGO, Actor, PieceKind
-from scenewright.roads.grounding import Scene
-from scenewright.solve.limits import Limits
-from scenewright.solve.proofs.narrowing import Narrowing
-from scenewright.solve.proofs.polynomials import (
+from scenewright.algebra.polynomials import (
     ZERO,
     Named,
     Polynomial,
@@ -30,6 +23,13 @@ from scenewright.solve.proofs.polynomials import (
     some,
     unknown,
 )
+from scenewright.motion.laws import Law
+from scenewright.motion.limits import Limits
+from scenewright.motion.profile import Profile
+from scenewright.program.structure import KnotKey, read_structure
+from scenewright.program.types import EGO, Actor, PieceKind
+from scenewright.roads.grounding import Scene
+from scenewright.solve.proofs.narrowing import Narrowing
 from scenewright.translate.phrases import does
 from scenewright.units import pin
 

@@ -11,9 +11,9 @@ from collections.abc import Callable, Iterable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from scenewright.algebra.polynomials import Formula, Unknown
 from scenewright.solve.proofs.events import Events
 from scenewright.solve.proofs.order import tightened
-from scenewright.solve.proofs.polynomials import Formula, Unknown
 from scenewright.solve.proofs.witness import Witness
 
 Array = NDArray[np.float64]

@@ -13,14 +13,7 @@ from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from itertools import product
 
-from scenewright.program import expressions as ex
-from scenewright.program.types import EGO, Constraint
-from scenewright.roads.bodies import VEHICLE_LENGTH_M
-from scenewright.solve.proofs.events import Events
-from scenewright.solve.proofs.forms import TIGHT, actors_at, asserted, compared_dimension, free_actors
-from scenewright.solve.proofs.narrowing import Narrowing, narrowings_of
-from scenewright.solve.proofs.order import least_value
-from scenewright.solve.proofs.polynomials import (
+from scenewright.algebra.polynomials import (
     ONE,
     TRUE,
     ZERO,
@@ -33,6 +26,13 @@ from scenewright.solve.proofs.polynomials import (
     polynomial,
     some,
 )
+from scenewright.program import expressions as ex
+from scenewright.program.types import EGO, Constraint
+from scenewright.roads.bodies import VEHICLE_LENGTH_M
+from scenewright.solve.proofs.events import Events
+from scenewright.solve.proofs.forms import TIGHT, actors_at, asserted, compared_dimension, free_actors
+from scenewright.solve.proofs.narrowing import Narrowing, narrowings_of
+from scenewright.solve.proofs.order import least_value
 from scenewright.units import pin
 
 MEAN_RATE = "the rate of a piece is by how much the speed changes in it, over how long it lasts"

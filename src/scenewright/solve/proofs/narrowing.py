@@ -11,9 +11,9 @@ from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
+from scenewright.algebra.polynomials import ZERO
 from scenewright.motion.laws import ANY, Law
 from scenewright.program import expressions as ex
-from scenewright.solve.proofs.polynomials import ZERO
 
 if TYPE_CHECKING:
     from scenewright.solve.proofs.lowering import Lowering

@@ -13,8 +13,8 @@ from itertools import permutations
 import numpy as np
 from numpy.typing import NDArray
 
+from scenewright.algebra.polynomials import ZERO, All, Atom, Formula, Polynomial, Unknown
 from scenewright.solve.proofs.events import LONGEST_S, Events
-from scenewright.solve.proofs.polynomials import ZERO, All, Atom, Formula, Polynomial, Unknown
 
 Array = NDArray[np.float64]
 _PASSES = 2  # over all comparisons, to see between which places somebody is: enough for one that rests on another

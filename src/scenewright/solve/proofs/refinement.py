@@ -14,14 +14,15 @@ from itertools import pairwise
 
 import numpy as np
 
+from scenewright.algebra.polynomials import ZERO, Formula, Named, compare, some
 from scenewright.motion.laws import ANY, Law
+from scenewright.motion.limits import ROOM, calm_mpss
 from scenewright.program import expressions as ex
 from scenewright.program.evaluate import moments_of_worst
 from scenewright.program.manner import Manner
 from scenewright.program.types import Actor, PieceKind
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.roads.conflicts import find_conflict
-from scenewright.solve.limits import ROOM, calm_mpss
 from scenewright.solve.plan import PlanWorld
 from scenewright.solve.proofs.apart import clear
 from scenewright.solve.proofs.events import Events
@@ -29,7 +30,7 @@ from scenewright.solve.proofs.forms import asserted, free_actors
 from scenewright.solve.proofs.lowering import RATE_LASTS_S, Lowering
 from scenewright.solve.proofs.narrowing import Narrowing
 from scenewright.solve.proofs.order import places_within
-from scenewright.solve.proofs.polynomials import ZERO, Formula, Named, compare, some
+from scenewright.solve.proofs.soonest import past_bends
 from scenewright.solve.proofs.witness import Array, Broken, Witness, bends
 from scenewright.units import pin
 
@@ -173,16 +174,17 @@ class Refinement:
                 yield Named(some([*elsewhere, compare("<=", state.speed, most)]), words)
 
     def bound_in_bend(self, actor: int, asked: Sequence[Formula]) -> None:
-        """Say for proofs how fast the sharpest bend of a route can be driven.
+        """Say for proofs how fast the sharpest bend of a route can be driven, and how soon one can be past it.
 
         One who surely drives through it, by what is `asked`, has a moment there.
         """
-        places, sharpness = bends(self.events.scene.routes[actor])
+        events, (places, sharpness) = self.events, bends(self.events.scene.routes[actor])
         peak = int(np.argmax(sharpness))
-        driven = [within for (owner, _), within in places_within(self.events, asked).items() if owner == actor]
+        events.rules += past_bends(events, actor, asked)
+        driven = [within for (owner, _), within in places_within(events, asked).items() if owner == actor]
         if any(high < places[peak] for _, high in driven) and any(low > places[peak] for low, _ in driven):
-            self.events.at_place(actor, pin(float(places[peak])))
-        self.events.rules += self.in_bend(actor, peak, planned=False)
+            events.at_place(actor, pin(float(places[peak])))
+        events.rules += self.in_bend(actor, peak, planned=False)
 
     def _slow_in_turn(self, broken: Broken, witness: Witness) -> None:
         """Keep to a speed in a bend at all moments: one is where it is too fast, and one at either end."""

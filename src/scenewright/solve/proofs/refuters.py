@@ -11,9 +11,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal, Protocol
 
+from scenewright.algebra.polynomials import Named, Unknown
 from scenewright.errors import SolverError
 from scenewright.plugins import Kind
-from scenewright.solve.proofs.polynomials import Named, Unknown
 
 GROUP = "scenewright.solvers"
 _OURS = {

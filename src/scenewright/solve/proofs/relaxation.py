@@ -14,13 +14,13 @@ from itertools import pairwise, permutations
 import numpy as np
 from numpy.typing import NDArray
 
+from scenewright.algebra.polynomials import FALSE, TRUE, ZERO, Formula, Named, atom, compare, every, some
 from scenewright.motion.laws import Law, reach
 from scenewright.program.types import EGO
 from scenewright.solve.proofs.events import Events
 from scenewright.solve.proofs.forms import TIGHT
 from scenewright.solve.proofs.narrowing import Narrowing
 from scenewright.solve.proofs.order import least_differences, places_within
-from scenewright.solve.proofs.polynomials import FALSE, TRUE, ZERO, Formula, Named, atom, compare, every, some
 
 EVEN_RATE = "a rate that is told of a piece lasts all through it, but for a moment at either end"
 _CERTAIN = 1e-9

@@ -15,8 +15,8 @@ from typing import Any
 
 import pyscipopt
 
+from scenewright.algebra.polynomials import All, Atom, Formula, Monomial, Named, Polynomial, Some, Unknown
 from scenewright.solve.proofs.order import tightened
-from scenewright.solve.proofs.polynomials import All, Atom, Formula, Monomial, Named, Polynomial, Some, Unknown
 from scenewright.solve.proofs.refuters import Answer, Capabilities
 
 

@@ -13,12 +13,12 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from scenewright.algebra.compiled import Compiled
+from scenewright.algebra.polynomials import Formula
 from scenewright.motion.laws import Law, bounded, capped, fixed
-from scenewright.solve.proofs.compiled import Compiled
 from scenewright.solve.proofs.events import Events
 from scenewright.solve.proofs.narrowing import Narrowing
 from scenewright.solve.proofs.order import least_differences
-from scenewright.solve.proofs.polynomials import Formula
 
 Array = NDArray[np.float64]
 

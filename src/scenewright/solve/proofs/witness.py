@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scenewright.motion.laws import Law, realise
+from scenewright.motion.limits import Limits
 from scenewright.motion.profile import Profile, Segment
 from scenewright.program.evaluate import violation
 from scenewright.program.structure import Structure, placed_at
@@ -25,7 +26,6 @@ from scenewright.roads.bodies import CAR, Body
 from scenewright.roads.grounding import Scene
 from scenewright.roads.routes import Route
 from scenewright.roads.zones import overlap
-from scenewright.solve.limits import Limits
 from scenewright.solve.plan import PlanWorld
 from scenewright.solve.proofs.events import EgoBounds, Events
 from scenewright.solve.proofs.search import Search

@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
+from scenewright.algebra.polynomials import Named, Unknown, smtlib
 from scenewright.solve.proofs.order import tightened
-from scenewright.solve.proofs.polynomials import Named, Unknown, smtlib
 from scenewright.solve.proofs.refuters import Answer, Capabilities
 
 if TYPE_CHECKING:

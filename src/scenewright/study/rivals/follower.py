@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 from scenewright.drive.protocol import EgoMotion, VehicleState
+from scenewright.motion.limits import Limits
 from scenewright.motion.profile import Profile, Segment
 from scenewright.plan.planner import Planner, Replan
 from scenewright.plan.prediction import EgoSample
@@ -18,7 +19,6 @@ from scenewright.program.types import EGO, Actor
 from scenewright.roads.bodies import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M
 from scenewright.roads.grounding import Scene
 from scenewright.roads.turns import TurnSpan
-from scenewright.solve.limits import Limits
 from scenewright.solve.plan import Plan
 from scenewright.study.rivals.script import top_speed_mps
 from scenewright.study.rivals.waypoints import DriverStart, View, Waypoint, WaypointDriver

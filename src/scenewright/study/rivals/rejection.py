@@ -10,8 +10,8 @@ from collections.abc import Iterator, Mapping
 
 import numpy as np
 
+from scenewright.motion.limits import MOVING_MPS
 from scenewright.solve.arrival import LinearCondition
-from scenewright.solve.limits import MOVING_MPS
 from scenewright.study.rivals.script import Script
 
 _START_MARGIN_M = 3.0

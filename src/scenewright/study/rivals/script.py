@@ -12,6 +12,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
+from scenewright.motion.limits import Limits
 from scenewright.motion.profile import Profile, Segment, chain
 from scenewright.program.expressions import Compare, PieceRef, piece_of
 from scenewright.program.structure import Structure
@@ -19,7 +20,6 @@ from scenewright.program.types import EGO, Actor, Program
 from scenewright.roads.grounding import Scene
 from scenewright.roads.turns import TurnSpan
 from scenewright.solve.arrival import LinearCondition
-from scenewright.solve.limits import Limits
 from scenewright.solve.plan import Plan
 
 States = Mapping[int, tuple[float, float]]

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from posed import violation
 
-from scenewright.solve.proofs.polynomials import (
+from scenewright.algebra.polynomials import (
     FALSE,
     TRUE,
     Named,

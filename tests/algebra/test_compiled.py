@@ -10,8 +10,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from posed import at_random, violation
 
-from scenewright.solve.proofs.compiled import Compiled
-from scenewright.solve.proofs.polynomials import Formula, atoms, compare, every, some, unknown
+from scenewright.algebra.compiled import Compiled
+from scenewright.algebra.polynomials import Formula, atoms, compare, every, some, unknown
 
 SEEDS = st.integers(0, 10_000)
 X, Y = unknown(0), unknown(1)

@@ -8,10 +8,11 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
+from scenewright.motion.limits import LATERAL_MAX_MPSS, SPEED_OVER_LIMIT, Signs, calm_mpss, limits_on
+from scenewright.motion.profile import Profile, chain
 from scenewright.program.manner import USUAL, Manner
 from scenewright.roads import find_route, load_map
 from scenewright.roads.turns import tightest_curvature
-from scenewright.solve.limits import LATERAL_MAX_MPSS, SPEED_OVER_LIMIT, Signs, calm_mpss, limits_on
 
 T = load_map("t_intersection")
 STRICT = Manner(
@@ -71,3 +72,10 @@ def test_at_another_pace_only_the_approach_is_slower() -> None:
     assert most == pytest.approx(0.5 * SPEED_OVER_LIMIT * posted)
     assert replace(slow, natural_approach_speed_mps=limits.natural_approach_speed_mps, pace=1.0) == limits
     assert limits.at_pace(0.01).natural_approach_speed_mps >= 4.0, "nobody crawls"
+
+
+def test_signs_as_driven_tell_what_one_takes_them_for() -> None:
+    posted = Signs((0.0, 100.0, 200.0), (10.0, 10.0, 14.0))
+    drive = Profile(chain(0.0, 50.0, 4.0, [(5.0, 0.0, 0), (5.0, 0.4, 0), (5.0, -1.0, 0), (20.0, 0.1, 0)]))
+    found = posted.as_driven(drive)
+    assert [found.at_mps(s_m) for s_m in (20.0, 150.0, 250.0)] == pytest.approx([6.0, 6.0, 8.4])

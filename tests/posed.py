@@ -6,7 +6,7 @@ import random
 from collections.abc import Sequence
 from fractions import Fraction
 
-from scenewright.solve.proofs.polynomials import (
+from scenewright.algebra.polynomials import (
     ZERO,
     All,
     Atom,

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from scenewright.solve.proofs.polynomials import All, Atom, Formula, Some, atoms
+from scenewright.algebra.polynomials import All, Atom, Formula, Some, atoms
 
 Array = NDArray[np.float64]
 

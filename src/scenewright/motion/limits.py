@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scenewright.motion.laws import Law
+from scenewright.motion.profile import Profile
 from scenewright.program.manner import Manner
 from scenewright.roads.model import RoadMap
 from scenewright.roads.routes import Route
@@ -104,6 +105,11 @@ class Signs:
     def up_to(self, count: int) -> Signs:
         """Return the first ones only: whoever does something else before it comes to the next has not heeded it yet."""
         return Signs(self.starts_m[:count], self.limits_mps[:count])
+
+    def as_driven(self, motion: Profile) -> Signs:
+        """Return what one takes them for that drives so: by how much it is above, or below, where it is most."""
+        share = max(segment.end_speed_mps / self.at_mps(segment.end_s_m) for segment in motion.segments)
+        return Signs(self.starts_m, tuple(max(MOVING_MPS, share * limit_mps) for limit_mps in self.limits_mps))
 
     def evenly_mps(self, s_m: FloatArray) -> FloatArray:
         """Return how fast one who heeds them drives at places, who gets slower and faster evenly."""
