@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
-from posed import at_random, violation
 
+from posed import at_random, violation
 from scenewright.algebra.compiled import Compiled
 from scenewright.algebra.polynomials import Formula, atoms, compare, every, some, unknown
 

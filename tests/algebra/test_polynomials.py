@@ -8,8 +8,8 @@ from fractions import Fraction
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from posed import violation
 
+from posed import violation
 from scenewright.algebra.polynomials import (
     FALSE,
     TRUE,

@@ -264,13 +264,17 @@ def test_an_ego_is_foreseen_by_a_drive_alone_only_if_it_drives_alike_each_time(e
     ] * 2
 
 
-@pytest.mark.parametrize("asked", ["A0v(2.0) == 7", "A0v(t1) <= 5", "always[0, A0(t1)] (A0v >= 11)"])
-def test_an_ego_that_holds_its_speed_starts_as_fast_as_it_is_to_be_at_any_moment(asked: str) -> None:
+@pytest.mark.parametrize(
+    ("asked", "low_mps", "high_mps"),
+    [("A0v(2.0) == 7", 6.75, 7.25), ("A0v(t1) <= 5", 0.5, 5.25), ("always[0, A0(t1)] (A0v >= 11)", 10.75, 15.0)],
+)
+def test_an_ego_that_holds_its_speed_starts_as_fast_as_it_is_to_be_at_any_moment(
+    asked: str, low_mps: float, high_mps: float
+) -> None:
     trigger = "A0(t1) == A1(t1)\nA0x(t1) == conflict_point - 30\nA1x(t1) == conflict_point - 25\nA1v(t2) == 0\n"
     world = world_of(program("W", "t0, go, t1, dec, t2", trigger + asked + "\n"), "constant")
     world.choose_and_check()
     found = first_plan(world)
     assert found is not None
     assert found[2].is_good
-    low_mps, high_mps = {"7": (6.75, 7.25), "5": (0.5, 5.25), "11)": (10.75, 15.0)}[asked.split()[-1]]
     assert low_mps <= found[1].speed_mps <= high_mps

@@ -5,8 +5,8 @@ from __future__ import annotations
 from fractions import Fraction
 
 import pytest
-from posed import UNKNOWNS, X, Y, named, violation
 
+from posed import UNKNOWNS, X, Y, named, violation
 from scenewright.algebra.polynomials import FALSE, compare, every, some, unknown
 
 pytest.importorskip("pyscipopt", reason="the extra scip is not installed")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from posed import UNKNOWNS, X, Y, named
-
 from scenewright.algebra.polynomials import compare, some
 from scenewright.solve.proofs.z3_engine import Z3
 
