@@ -65,6 +65,10 @@ def program(base: str, constraint: str, parameter: str = "") -> str:
     return f"{head}{actors}\nConstraints:\n{constraints}{PROBE}: {constraint}\n"
 
 
+# Of a product of three no solver is told: nobody plans it, and no check knows whether it can happen.
+UNPLANNED = program("cross", "A1v(t1) * A1v(t1) * A1v(t1) == 300")
+
+
 def _over(operator: str, interval: str, impossible: str, binding: str) -> tuple[str, str]:
     return f"{operator}[{interval}] ({impossible})", f"{operator}[{interval}] ({binding})"
 

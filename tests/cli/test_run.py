@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 from sentences import IMPOSSIBLE, OPEN_SENTENCE, SENTENCE
 
-from forms import FORMS, PROBE
+from forms import PROBE, UNPLANNED
 
 Command = Callable[..., Any]
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
@@ -155,9 +155,8 @@ def test_a_near_miss_is_told_and_is_no_collision(command: Command) -> None:
 
 
 def test_gives_up_with_what_the_planner_cannot_hold(command: Command, tmp_path: Path) -> None:
-    form = next(form for form in FORMS if form.name == "v of the ego at a time")
     program = tmp_path / "not_to_be_held.scene"
-    program.write_text(form.binding_program(), encoding="utf-8")
+    program.write_text(UNPLANNED, encoding="utf-8")
     result = command("run", program, "--ego", "constant")
     assert result.exit_code == 4
     assert "cannot hold" in result.stderr
