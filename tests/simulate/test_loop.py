@@ -211,3 +211,15 @@ def test_who_drives_on_behind_the_ego_does_not_run_into_it() -> None:
     assert hero_knots_s(run)["t1"] < 6.0
     assert hero.s_m[-1] > stage.scene.landmarks_m[1]["intersection"] + 60.0
     assert np.min(ego.s_m - hero.s_m) > VEHICLE_LENGTH_M
+
+
+def test_who_stood_behind_the_ego_drives_on_again() -> None:
+    asked = "A0(t1) == A1(t1)\nA0x(t1) == intersection - 3\nA1x(t1) == intersection - 67\nA1v(t2) == 0\n"
+    stage = Stage(program("W", "t0, go, t1, dec, t2, stop, t3, go, t4", asked), Scripted(lambda *_: 0.0))
+    assert stage.begin(stage.scene.landmarks_m[0]["intersection"] - 80.0, 12.6).is_good
+    run = stage.run()
+    hero = run.trace.actors["hero"]
+    stood_s = hero.time_s[np.flatnonzero(hero.speed_mps < 1e-3)]
+    assert len(stood_s) > 0
+    assert hero.speed_mps[-1] > 1.0
+    assert hero.time_s[-1] > stood_s.max() + 0.5

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import InitVar, dataclass, field
+from itertools import pairwise
 
 import numpy as np
 
@@ -271,15 +272,12 @@ class Standing:
             return None
         if current < sketch.knot_index(trigger):
             return current
-        behind = self._ego.keeps_behind(hero.id)
-        return next(
-            (
-                piece
-                for piece in range(max(current, sketch.knot_index(trigger)), len(sketch.pieces))
-                if piece in self._reactive[hero.id] or (behind and sketch.pieces[piece] is PieceKind.GO)
-            ),
-            None,
-        )
+        answers = set(self._reactive[hero.id])
+        if self._ego.keeps_behind(hero.id):  # who stands sets off as planned: it is that which sets it off
+            kinds = enumerate(pairwise((None, *sketch.pieces)))
+            answers |= {n for n, (before, kind) in kinds if kind is PieceKind.GO and before is not PieceKind.STOP}
+        later = range(max(current, sketch.knot_index(trigger)), len(sketch.pieces))
+        return next((piece for piece in later if piece in answers), None)
 
     def _reactive_pieces(self, hero: Actor, trigger: int) -> Iterator[int]:
         """Yield the pieces after the trigger in which a hero answers the ego.
