@@ -23,6 +23,7 @@ from scenewright.request import Request, Stages
 from scenewright.roads.grounding import Scene
 from scenewright.simulate.beginning import first_states
 from scenewright.simulate.builtin import BuiltIn
+from scenewright.simulate.ego_start import EgoFirstState
 from scenewright.simulate.port import Start
 from scenewright.simulate.world import World
 from scenewright.study.benchmark.draws import draw_row, range_of
@@ -66,11 +67,12 @@ def hero_motion(
     return Profile(chain(0.0, begins_m, speed_mps, moves)), acts_s, None
 
 
-def seen(world: World, drawn: Mapping[str, float], sides: tuple[Named, Named], chance: random.Random) -> float | None:
+def seen(
+    world: World, start: EgoFirstState, drawn: Mapping[str, float], sides: tuple[Named, Named], chance: random.Random
+) -> float | None:
     """Return how long (s) the ego is from its place when a hero acts; None where that is no case of the row."""
     scene, found = world.scene, hero_motion(world.scene, drawn, sides[1], chance)
-    start = next((each for each in first_states(world) if not each.last_resort), None)
-    if found is None or start is None:
+    if found is None:
         return None
     motion, acts_s, passes_s = found
     place = place_m(scene, sides[0][0], EGO)
@@ -99,8 +101,9 @@ def case_of(row: BenchmarkRow, ego: str, seed: int) -> dict[str, float] | None:
         request = Request(row.program_text, parameters=drawn, ego=ego, seed=seed, explain="nothing")
         world, _, answer = begin(request, Stages(None))
         limits = range_of(row, sides[0][0])
-        for _ in range(_HEROES if answer != "infeasible" else 0):
-            away_s = seen(world, drawn, sides, chance)
+        start = None if answer == "infeasible" else next(first_states(world), None)
+        for _ in range(0 if start is None or start.last_resort else _HEROES):
+            away_s = seen(world, start, drawn, sides, chance)
             if away_s is not None and limits.low <= away_s <= limits.high:
                 return drawn | {sides[0][0]: round(away_s, 3)}
     return None

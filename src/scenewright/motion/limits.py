@@ -107,7 +107,7 @@ class Signs:
         return Signs(self.starts_m[:count], self.limits_mps[:count])
 
     def as_driven(self, motion: Profile) -> Signs:
-        """Return what one takes them for that drives so: by how much it is above, or below, where it is most."""
+        """Return the speeds that a driver with such a motion aims at: limits times the largest share it comes to."""
         share = max(segment.end_speed_mps / self.at_mps(segment.end_s_m) for segment in motion.segments)
         return Signs(self.starts_m, tuple(max(MOVING_MPS, share * limit_mps) for limit_mps in self.limits_mps))
 

@@ -5,12 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from scenewright.algebra.polynomials import Atom
 from scenewright.motion.limits import limits_on
 from scenewright.program.text import parse_program
 from scenewright.roads.grounding import Scene, ground
 from scenewright.roads.load import load_map
 from scenewright.solve.proofs.events import EgoBounds, Events
 from scenewright.solve.proofs.lowering import Lowering
+from scenewright.solve.proofs.order import places_within
 from scenewright.solve.proofs.soonest import past_bends
 
 TEXT = """scenario "s"
@@ -38,11 +40,13 @@ def bounds(asked: str, turn: str) -> tuple[Scene, list[tuple[float, float, float
     lowered = Lowering(events).lower(scene.program.constraints)
     early = events.knot(1, "t1")
     state, found = events.state(1, early), list[tuple[float, float, float]]()
-    for each in past_bends(events, 1, [named.formula for named in lowered]):
-        terms = each.formula.left.terms  # type: ignore[union-attr]
+    told = places_within(events, [named.formula for named in lowered])
+    for each in past_bends(events, 1, {instant: ends for (actor, instant), ends in told.items() if actor == 1}):
+        assert isinstance(each.formula, Atom)
+        terms = each.formula.left.terms
         if events.times[early].number in {key[0] for key in terms if key}:
-            place, speed = ((number.number,) for number in (state.place, state.speed))
-            found.append(tuple(float(terms.get(key, 0)) for key in (place, speed, ())))  # type: ignore[arg-type]
+            per_m, per_mps = (float(terms.get((number.number,), 0)) for number in (state.place, state.speed))
+            found.append((per_m, per_mps, float(terms.get((), 0))))
     return scene, found
 
 

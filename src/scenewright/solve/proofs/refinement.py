@@ -10,7 +10,7 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from itertools import pairwise
+from itertools import pairwise, product
 
 import numpy as np
 
@@ -180,9 +180,9 @@ class Refinement:
         """
         events, (places, sharpness) = self.events, bends(self.events.scene.routes[actor])
         peak = int(np.argmax(sharpness))
-        events.rules += past_bends(events, actor, asked)
-        driven = [within for (owner, _), within in places_within(events, asked).items() if owner == actor]
-        if any(high < places[peak] for _, high in driven) and any(low > places[peak] for low, _ in driven):
+        within = {instant: ends for (owner, instant), ends in places_within(events, asked).items() if owner == actor}
+        events.rules += past_bends(events, actor, within)
+        if any(high < places[peak] < low for (_, high), (low, _) in product(within.values(), repeat=2)):
             events.at_place(actor, pin(float(places[peak])))
         events.rules += self.in_bend(actor, peak, planned=False)
 

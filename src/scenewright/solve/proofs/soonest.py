@@ -7,15 +7,15 @@ refute at once what no solver found from the laws at moments within the bend.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping
+from fractions import Fraction
 from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
 
-from scenewright.algebra.polynomials import Formula, Named, compare
+from scenewright.algebra.polynomials import Named, compare
 from scenewright.solve.proofs.events import Events
-from scenewright.solve.proofs.order import places_within
 from scenewright.solve.proofs.witness import bends
 from scenewright.units import pin
 
@@ -27,10 +27,12 @@ _STARTS, _EVERY, _STEP_M = 241, 40, 0.25
 _SURELY, _ROUNDED_S = 0.999, 1e-3
 
 
-def past_bends(events: Events, actor: int, asked: Sequence[Formula]) -> Iterator[Named]:
-    """Yield how much later than at any moment before the sharpest bend of its route an actor is past it."""
+def past_bends(events: Events, actor: int, within: Mapping[int, tuple[Fraction, Fraction]]) -> Iterator[Named]:
+    """Yield how much later than at any moment before the sharpest bend of its route an actor is past it.
+
+    `within` says between which places (m) it is at each instant.
+    """
     places_m, sharpness = bends(events.scene.routes[actor])
-    within = {instant: ends for (owner, instant), ends in places_within(events, asked).items() if owner == actor}
     peak_m, times, most_mpss = places_m[np.argmax(sharpness)], events.times, events.limits[actor].lateral_max_mpss
     if most_mpss >= sharpness.max() * float(events.law_of(actor).speed_high) ** 2:
         return
