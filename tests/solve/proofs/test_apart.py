@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from posed import violation
 
+from posed import violation
 from scenarios import limits_of
 from scenewright.program.structure import read_structure
 from scenewright.program.text import parse_program
