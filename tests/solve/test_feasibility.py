@@ -254,4 +254,4 @@ def test_a_time_to_collision_that_never_comes_is_long_enough() -> None:
 def test_a_number_out_of_range_clashes_with_its_range_in_words() -> None:
     scene = replace(NOT_YIELDING, text=NOT_YIELDING.text + "A0v(1.0) >= 100\n").scene()
     decision = decide(Question(scene, read_structure(scene.program), limits_of(scene)), 5.0)
-    assert any(each.startswith("how fast anybody may be: ego 0 to 60 m/s, hero 0 to ") for each in decision.core)
+    assert any(each == "how fast anybody may be: ego 0 to 60 m/s" for each in decision.core)

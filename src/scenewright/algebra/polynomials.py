@@ -232,16 +232,13 @@ def atoms(formula: Formula) -> Iterator[Atom]:
 
 
 # -- text --------------------------------------------------------------------------------------------------------------
-def smtlib(unknowns: Sequence[Unknown], formulas: Sequence[Named], named: bool = False) -> str:
-    """Return the problem as text: unknown i is ``u<i>``, and with `named` formula i is ``n<i>``, for cores."""
-    lines = ["(set-option :produce-unsat-cores true)"] if named else []
+def smtlib(unknowns: Sequence[Unknown], formulas: Sequence[Named]) -> str:
+    """Return the problem as text: unknown i is ``u<i>``."""
+    lines: list[str] = []
     for number, each in enumerate(unknowns):
         lines.append(f"(declare-const u{number} Real)")
         lines.append(f"(assert (<= {_number(each.low)} u{number} {_number(each.high)}))")
-    for number, formula in enumerate(formulas):
-        text = _formula(formula.formula)
-        lines.append(f"(assert (! {text} :named n{number}))" if named else f"(assert {text})")
-    return "\n".join(lines)
+    return "\n".join([*lines, *(f"(assert {_formula(each.formula)})" for each in formulas)])
 
 
 def _formula(formula: Formula) -> str:

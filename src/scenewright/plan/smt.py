@@ -13,6 +13,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import product
 
+from scenewright.algebra.polynomials import resting_on
 from scenewright.motion.limits import Limits
 from scenewright.motion.profile import Profile, Segment
 from scenewright.plan.one_rate import OneRate, Past, Question
@@ -24,7 +25,7 @@ from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
 from scenewright.solve.plan import Plan
 from scenewright.solve.proofs.events import EgoBounds
-from scenewright.solve.proofs.refuters import Answer
+from scenewright.solve.proofs.refuters import Answer, clashing
 from scenewright.solve.proofs.z3_engine import Z3
 from scenewright.translate.lines import told_constraints
 
@@ -139,8 +140,9 @@ class SmtPlanner:
         self.plan = Plan(profiles, tolerance, parameters)
 
     def _clash(self, question: Question) -> str:
-        core = self._solver.ask(question.unknowns, question.formulas, LIMIT_S, want_core=True).core
-        return f"no motion of one rate a piece holds all of: {self._words(sorted(core))}"
+        origins = list(dict.fromkeys(origin for each in question.formulas for origin in each.origins))
+        core = clashing(self._solver, origins, lambda kept: (question.unknowns, resting_on(question.formulas, kept)))
+        return f"no motion of one rate a piece holds all of: {self._words(core)}"
 
     def _words(self, origins: Sequence[str]) -> str:
         told = told_constraints(self.scene.program)

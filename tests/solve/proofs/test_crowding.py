@@ -86,7 +86,7 @@ def test_who_is_to_be_in_contact_is_not_counted() -> None:
 class Unasked:
     """A solver that nobody is to ask."""
 
-    name, capabilities = "unasked", Capabilities(exact=True, cores=True)
+    name, capabilities = "unasked", Capabilities(exact=True)
 
     def ask(self, *_: object, **__: object) -> Answer:
         raise AssertionError("counting was enough")

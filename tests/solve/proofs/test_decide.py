@@ -193,16 +193,14 @@ class Denies:
     capabilities: Capabilities
     name: str = "denier"
 
-    def ask(
-        self, unknowns: Sequence[Unknown], formulas: Sequence[Named], timeout_s: float, want_core: bool = False
-    ) -> Answer:
-        return Answer("refuted", core=tuple(each.origin for each in formulas))
+    def ask(self, unknowns: Sequence[Unknown], formulas: Sequence[Named], timeout_s: float) -> Answer:
+        return Answer("refuted")
 
 
 @pytest.mark.parametrize("exact", [True, False])
 def test_only_what_an_exact_solver_refutes_is_proven(exact: bool) -> None:
     asked = question(f"{HEAD}probe: A1v(t1) == 50\n")
-    denies = Denies(Capabilities(exact=exact, cores=True))
+    denies = Denies(Capabilities(exact=exact))
     decision = decide(replace(asked, refuter=denies))
     assert decision.answer == ("infeasible" if exact else "undecided")
     assert decision.doubted_by == ("" if exact else "denier")

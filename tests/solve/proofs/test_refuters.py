@@ -5,6 +5,8 @@ from __future__ import annotations
 import sys
 import tomllib
 from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 
@@ -13,15 +15,17 @@ from planted import T, lowered
 
 from forms import FORMS, program
 from posed import UNKNOWNS, X, Y, at_random, eased, named, violation
-from scenewright.algebra.polynomials import Named, Unknown, compare, needed, some
+from scenewright.algebra.polynomials import Named, Unknown, compare, resting_on, some
 from scenewright.errors import InputError, MissingExtraError, SolverError
 from scenewright.program.text import parse_program
 from scenewright.roads.grounding import ground
 from scenewright.solve.proofs.refuters import (
     GROUP,
     SOLVERS,
+    Answer,
     Capabilities,
     Refuter,
+    clashing,
 )
 from scenewright.solve.proofs.relaxation import relaxation
 
@@ -32,10 +36,21 @@ from scenewright.solve.proofs.refuters import Answer, Capabilities
 
 class Shy:
     name = "shy"
-    capabilities = Capabilities(exact=True, cores=False)
-    def ask(self, unknowns, formulas, timeout_s, want_core=False):
+    capabilities = Capabilities(exact=True)
+    def ask(self, unknowns, formulas, timeout_s):
         return Answer("unknown")
 """
+
+
+@dataclass
+class Slow:
+    """Refutes anything, and takes long for it."""
+
+    capabilities: Capabilities
+    name: str = "slow"
+
+    def ask(self, unknowns: Sequence[Unknown], formulas: Sequence[Named], timeout_s: float) -> Answer:
+        return Answer("refuted", took_s=0.7)
 
 
 def other(name: str) -> Refuter:
@@ -94,10 +109,10 @@ def test_solvers_that_fail_are_named(package: Path) -> None:
 
 
 def test_capabilities_are_told_in_words() -> None:
-    assert Capabilities(exact=False, cores=False).words() == ("numeric: a cross-check, no proof, no cores")
+    assert Capabilities(exact=False).words() == "numeric: a cross-check, no proof"
 
 
-@pytest.mark.parametrize("name", OTHERS)
+@pytest.mark.parametrize("name", ["z3", *OTHERS])
 def test_what_clashes_by_any_solver_clashes_and_is_no_more_than_is_needed(name: str) -> None:
     formulas = named(
         low=compare("<=", X, 3),
@@ -105,8 +120,13 @@ def test_what_clashes_by_any_solver_clashes_and_is_no_more_than_is_needed(name: 
         else_where=compare("==", Y, 1),
     )
     solver = other(name)
-    found = needed(formulas, lambda fewer: solver.ask(UNKNOWNS, fewer, 5.0).kind == "refuted")
-    assert {each.origin for each in found} == {"low", "high"}, "x y is at most 15"
+    found = clashing(solver, ["low", "high", "else_where"], lambda names: (UNKNOWNS, resting_on(formulas, names)))
+    assert set(found) == {"low", "high"}, "x y is at most 15"
+
+
+def test_looking_for_what_clashes_ends_and_leaves_out_nothing_that_was_not_looked_at() -> None:
+    slow = Slow(Capabilities(exact=True))
+    assert clashing(slow, list("abcde"), lambda _: (UNKNOWNS, [])) == list("de"), "three questions took all the work"
 
 
 @pytest.mark.parametrize(("name", "count"), [("cvc5", 25), ("scip", 60)])

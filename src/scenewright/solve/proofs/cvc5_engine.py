@@ -1,12 +1,11 @@
-"""cvc5 as a second opinion: exact, with cores, slower here than z3.
+"""cvc5 as a second opinion: exact, slower here than z3.
 
-What enters: named formulas over unknowns. What leaves: that nothing meets them all, with what already clashes where it
-is asked for; that all can be met, without values; or that neither was found. It never runs in our own process.
+What enters: named formulas over unknowns. What leaves: that nothing meets them all; that all can be met, without
+values; or that neither was found. It never runs in our own process.
 """
 
 from __future__ import annotations
 
-import re
 import subprocess
 import sys
 import time
@@ -15,7 +14,7 @@ from collections.abc import Sequence
 from scenewright.algebra.polynomials import Named, Unknown, smtlib
 from scenewright.errors import SolverError
 from scenewright.solve.proofs.order import tightened
-from scenewright.solve.proofs.refuters import Answer, Capabilities
+from scenewright.solve.proofs.refuters import Answer, Capabilities, Found
 
 _START_S = 1.0  # what a process may take to start, on a busy machine
 # Asked in a process of its own, which imports nothing of ours and can be stopped: cvc5 does not always keep its limit.
@@ -27,39 +26,32 @@ parser.setStringInput(cvc5.InputLanguage.SMT_LIB_2_6, sys.stdin.read(), "questio
 while not (command := parser.nextCommand()).isNull():
     sys.stdout.write(command.invoke(solver, parser.getSymbolManager()))
 """
-_NAME = re.compile(r"\bn(\d+)\b")
 
 
 class Cvc5:
     """cvc5 in a process for each question, stopped where it takes too long."""
 
     name = "cvc5"
-    capabilities = Capabilities(exact=True, cores=True)
+    capabilities = Capabilities(exact=True)
 
-    def ask(
-        self, unknowns: Sequence[Unknown], formulas: Sequence[Named], timeout_s: float, want_core: bool = False
-    ) -> Answer:
+    def ask(self, unknowns: Sequence[Unknown], formulas: Sequence[Named], timeout_s: float) -> Answer:
         """Ask whether all `formulas` can hold at once."""
-        ranges = list(unknowns) if want_core else tightened(unknowns, (each.formula for each in formulas))
+        ranges = tightened(unknowns, (each.formula for each in formulas))
         if any(each.low > each.high for each in ranges):
             return Answer("refuted")
         lines = [
             f"(set-option :tlimit-per {max(1, int(timeout_s * 1000))})",
             "(set-logic QF_NRA)",
-            smtlib(ranges, formulas, named=want_core),
+            smtlib(ranges, formulas),
             "(check-sat)",
         ]
         started = time.perf_counter()
-        said = _said("\n".join(lines + ["(get-unsat-core)"] * want_core), timeout_s + _START_S)
+        said = _said("\n".join(lines), timeout_s + _START_S)
         took_s = time.perf_counter() - started
         if said is None:
             return Answer("timeout", took_s=took_s)
-        answer, _, rest = said.partition("\n")
-        if answer == "unsat":
-            numbers = map(int, _NAME.findall(rest))
-            core = tuple({origin for n in numbers for origin in formulas[n].origins})
-            return Answer("refuted", core=core, took_s=took_s)
-        return Answer("met" if answer == "sat" else "unknown", took_s=took_s)
+        kinds: dict[str, Found] = {"unsat": "refuted", "sat": "met"}
+        return Answer(kinds.get(said.strip(), "unknown"), took_s=took_s)
 
 
 def _said(text: str, limit_s: float) -> str | None:

@@ -15,7 +15,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from scenewright.algebra.polynomials import ZERO, Formula, Named, Unknown, needed, resting_on
+from scenewright.algebra.polynomials import ZERO, Formula, Named, Unknown, resting_on
 from scenewright.motion.limits import Limits
 from scenewright.motion.profile import Profile
 from scenewright.program.structure import Structure, actors_of
@@ -27,7 +27,7 @@ from scenewright.solve.proofs.events import LONGEST_S, EgoBounds, Events
 from scenewright.solve.proofs.guesses import carried_over, first_guess
 from scenewright.solve.proofs.lowering import Lowering
 from scenewright.solve.proofs.refinement import Refinement
-from scenewright.solve.proofs.refuters import SOLVERS, Refuter
+from scenewright.solve.proofs.refuters import SOLVERS, Refuter, clashing
 from scenewright.solve.proofs.relaxation import relaxation
 from scenewright.solve.proofs.search import Search
 from scenewright.solve.proofs.witness import Broken, Witness, broken, realised
@@ -38,8 +38,6 @@ _GUESSES = (4, 12, 1000)  # how many first guesses are tried before each time th
 _PROOF_S = (0.15, 0.4, 0.1)
 # How much a search does in what is called a second here. No clock is asked: answers are the same on any machine.
 _WORK_PER_S = 4_000_000
-_CORE_S = 2.0  # for looking for what clashes among constraints, and then among laws: as long as for the answer
-_SHRINK_S = 0.5  # for each question whether a core does without one of its members
 _RANGES = {
     "time": f"everything happens within {float(LONGEST_S):g} s of the start",
     "speed": "how fast anybody may be: {tops}",
@@ -148,8 +146,8 @@ def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> De
     """
     plain = _Case(question)
     left_out = {each.origin: each.refused for each in plain.lowered if each.refused}
-    if question.drive is None and (clashing := crowded(plain.events, plain.lowered)):
-        return Decision("infeasible", core=clashing, left_out=left_out)
+    if question.drive is None and (crowd := crowded(plain.events, plain.lowered)):
+        return Decision("infeasible", core=crowd, left_out=left_out)
     hunt, asked, case = _Hunt(question, int(limit_s * _WORK_PER_S)), question, plain
     posed: tuple[Sequence[Unknown], Sequence[Named]] | None = None  # most witnesses need none
     for guesses, proof_s in zip(_GUESSES, _PROOF_S, strict=True):
@@ -226,46 +224,27 @@ def _core(question: Question, unknowns: Sequence[Unknown], formulas: Sequence[Na
     Formulas are made with what all constraints say of the order of moments, and of who is who's moment: whether some
     of them clash is asked about these alone.
     """
-    refuter, left_s = question.refuter, _CORE_S
-    told = [constraint.id for constraint in question.constraints()]
-    first = refuter.ask(unknowns, formulas, 1.0, want_core=True).core if refuter.capabilities.cores else ()
-    # What says only who is whose moment is in how formulas are made, and has none that a solver could name.
-    stated = {origin for each in formulas for origin in each.origins}
-    named = [name for name in told if name in first or name not in stated]
-
-    def refuted(unknowns: Sequence[Unknown], formulas: Sequence[Named]) -> bool:
-        nonlocal left_s
-        answer = refuter.ask(unknowns, formulas, _SHRINK_S)
-        left_s -= answer.took_s
-        return answer.kind == "refuted"
-
-    def clash(names: list[str]) -> bool:
-        return left_s > 0.0 and refuted(*_posed(question, names))
-
-    kept = needed(named if clash(named) else told, clash)
+    refuter, told = question.refuter, [constraint.id for constraint in question.constraints()]
+    kept = clashing(refuter, told, lambda names: _posed(question, names))
     if kept != told:
         unknowns, formulas = _posed(question, kept)
     origins = dict.fromkeys(origin for each in formulas for origin in each.origins if origin not in kept)
-    left_s = _CORE_S
-
-    def by_law(laws: list[str]) -> bool:
-        return left_s > 0.0 and refuted(unknowns, resting_on(formulas, (*kept, *laws)))
-
-    laws = needed(list(origins), by_law)
-    clashing, ranges = resting_on(formulas, (*kept, *laws)), []
+    laws = clashing(refuter, list(origins), lambda laws: (unknowns, resting_on(formulas, (*kept, *laws))))
+    rests_on, ranges = resting_on(formulas, (*kept, *laws)), []
     for kind, words in _RANGES.items():
         wide = (replace(each, low=-_WIDER * each.high, high=_WIDER * each.high) for each in unknowns)
         wider = [new if old.kind == kind else old for old, new in zip(unknowns, wide, strict=True)]
-        if refuter.ask(wider, clashing, 0.2).kind == "met":
-            ranges.append(words.format(tops=_tops(question)))
+        if refuter.ask(wider, rests_on, 0.2).kind == "met":
+            ranges.append(words.format(tops=_tops(question, kept)))
     return (*kept, *laws, *ranges)
 
 
-def _tops(question: Question) -> str:
-    """Return between which speeds everybody is."""
-    tops = {question.scene.program.ego.name: question.ego.speed_max_mps}
-    tops |= {hero.name: question.limits[hero.id].speed_max_mps for hero in question.scene.program.heroes}
-    return ", ".join(f"{name} 0 to {top_mps:.4g} m/s" for name, top_mps in tops.items())
+def _tops(question: Question, kept: Collection[str]) -> str:
+    """Return between which speeds those are of whom the constraints that clash speak."""
+    program = question.scene.program
+    told = {actor for each in kept for actor in actors_of(program.constraint(each).formula)}
+    tops = {EGO: question.ego.speed_max_mps} | {h.id: question.limits[h.id].speed_max_mps for h in program.heroes}
+    return ", ".join(f"{program.actor(actor).name} 0 to {tops[actor]:.4g} m/s" for actor in sorted(told))
 
 
 def _posed(question: Question, kept: Collection[str]) -> tuple[Sequence[Unknown], Sequence[Named]]:

@@ -1,17 +1,18 @@
 """Solvers that refute, or find values: what each can do, and how it is found by name.
 
 What enters: a name. What leaves: a solver that answers whether formulas can hold at once, imported then and not before.
+What clashes is found by asking about fewer: for a core of its own z3 needs another, slower way, which often gets stuck.
 A package offers one by an entry point of the group ``scenewright.solvers``, a class without arguments. What its library
 needs besides is an extra of that package.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Literal, Protocol
 
-from scenewright.algebra.polynomials import Named, Unknown
+from scenewright.algebra.polynomials import Named, Unknown, needed
 from scenewright.errors import SolverError
 from scenewright.plugins import Kind
 
@@ -22,6 +23,9 @@ _OURS = {
     "scip": "scenewright.solve.proofs.scip_engine:Scip [scip]",
 }
 SOLVERS: Kind[Refuter] = Kind(GROUP, _OURS, "solver", "refutes", SolverError, {"cvc5": "cvc5", "scip": "pyscipopt"})
+_CORE_S, _SHRINK_S = 2.0, 0.5  # for looking for what clashes in all, and for each question whether fewer do
+
+Found = Literal["refuted", "met", "timeout", "unknown"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,16 +36,13 @@ class Answer:
     ----------
     kind
         ``refuted`` (nothing meets all formulas), ``met``, ``timeout``, or ``unknown`` where it gave up by itself.
-    core
-        Where refuted: origins of formulas that already clash, if the solver tells.
     values
         Where met: a value for every unknown, as near as a float comes, if the solver tells.
     took_s
         How long it took: by the solver's own count of its work if it has one.
     """
 
-    kind: Literal["refuted", "met", "timeout", "unknown"]
-    core: tuple[str, ...] = ()
+    kind: Found
     values: tuple[float, ...] = ()
     took_s: float = 0.0
 
@@ -54,17 +55,13 @@ class Capabilities:
     ----------
     exact
         Whether it reckons with rationals: only then is its ``refuted`` a proof.
-    cores
-        Whether it tells which formulas clash.
     """
 
     exact: bool
-    cores: bool
 
     def words(self) -> str:
         """Say it in a line."""
-        exact = "exact: what it refutes is proven" if self.exact else "numeric: a cross-check, no proof"
-        return f"{exact}, {'cores' if self.cores else 'no cores'}"
+        return "exact: what it refutes is proven" if self.exact else "numeric: a cross-check, no proof"
 
 
 class Refuter(Protocol):
@@ -73,11 +70,26 @@ class Refuter(Protocol):
     name: str
     capabilities: Capabilities
 
-    def ask(
-        self, unknowns: Sequence[Unknown], formulas: Sequence[Named], timeout_s: float, want_core: bool = False
-    ) -> Answer:
+    def ask(self, unknowns: Sequence[Unknown], formulas: Sequence[Named], timeout_s: float) -> Answer:
         """Ask whether all `formulas` can hold at once; timeouts are answers, never exceptions.
 
         What takes longer than `timeout_s` is given up: by a count of work, not by the clock, if the solver has one.
         """
         ...
+
+
+def clashing(
+    refuter: Refuter, names: Sequence[str], posed: Callable[[list[str]], tuple[Sequence[Unknown], Sequence[Named]]]
+) -> list[str]:
+    """Return which of `names`, which clash as they are `posed`, are needed for that, as far as little work tells."""
+    left_s = _CORE_S
+
+    def clash(fewer: list[str]) -> bool:
+        nonlocal left_s
+        if left_s <= 0.0:
+            return False
+        answer = refuter.ask(*posed(fewer), _SHRINK_S)
+        left_s -= answer.took_s
+        return answer.kind == "refuted"
+
+    return needed(names, clash)

@@ -24,11 +24,9 @@ class Scip:
     """SCIP, afresh for each question."""
 
     name = "scip"
-    capabilities = Capabilities(exact=False, cores=False)
+    capabilities = Capabilities(exact=False)
 
-    def ask(
-        self, unknowns: Sequence[Unknown], formulas: Sequence[Named], timeout_s: float, want_core: bool = False
-    ) -> Answer:
+    def ask(self, unknowns: Sequence[Unknown], formulas: Sequence[Named], timeout_s: float) -> Answer:
         """Ask whether all `formulas` can hold at once; a strict comparison is taken for one that is not."""
         ranges = tightened(unknowns, (each.formula for each in formulas))
         if any(each.low > each.high for each in ranges):

@@ -1,7 +1,7 @@
-"""z3: exact, with cores. The one solver that is always there.
+"""z3: exact. The one solver that is always there.
 
-What enters: named formulas over unknowns. What leaves: that nothing meets them all, with what already clashes where it
-is asked for; or values; or that neither was found.
+What enters: named formulas over unknowns. What leaves: that nothing meets them all, or values, or that neither was
+found.
 """
 
 from __future__ import annotations
@@ -33,32 +33,28 @@ class Z3:
     """
 
     name = "z3"
-    capabilities = Capabilities(exact=True, cores=True)
+    capabilities = Capabilities(exact=True)
 
     def __init__(self, work_per_s: int = 3_000_000) -> None:
         self._work_per_s = work_per_s
 
-    def ask(
-        self, unknowns: Sequence[Unknown], formulas: Sequence[Named], timeout_s: float, want_core: bool = False
-    ) -> Answer:
-        """Ask whether all `formulas` can hold at once; for a core by another, slower way."""
+    def ask(self, unknowns: Sequence[Unknown], formulas: Sequence[Named], timeout_s: float) -> Answer:
+        """Ask whether all `formulas` can hold at once."""
         import z3  # slow to import, and a witness needs none
 
         z3.set_param("ctrl_c", False)  # its own handler would take Ctrl-C for an answer
-        ranges = list(unknowns) if want_core else tightened(unknowns, (each.formula for each in formulas))
+        ranges = tightened(unknowns, (each.formula for each in formulas))
         if any(each.low > each.high for each in ranges):
             return Answer("refuted")
         context = z3.Context()
-        solver = z3.Solver(ctx=context) if want_core else z3.Then(*_STEPS, ctx=context).solver()
+        solver = z3.Then(*_STEPS, ctx=context).solver()
         solver.set("timeout", max(1, int(_STUCK * timeout_s * 1000)))
         solver.set("rlimit", max(1, int(timeout_s * self._work_per_s)))
-        solver.from_string(smtlib(ranges, formulas, named=want_core))
+        solver.from_string(smtlib(ranges, formulas))
         answer = solver.check()
         took_s = sum(count for what, count in solver.statistics() if what == "rlimit count") / self._work_per_s
         if answer == z3.unsat:
-            numbers = [int(str(name)[1:]) for name in solver.unsat_core()] if want_core else []
-            core = tuple({origin for n in numbers for origin in formulas[n].origins})
-            return Answer("refuted", core=core, took_s=took_s)
+            return Answer("refuted", took_s=took_s)
         if answer == z3.sat:
             return Answer("met", values=_values(solver.model(), len(ranges)), took_s=took_s)
         return Answer("timeout" if solver.reason_unknown() in ("timeout", "canceled") else "unknown", took_s=took_s)
