@@ -114,7 +114,7 @@ def test_an_amount_is_told_in_the_unit_that_somebody_wrote(written: str, amount:
         ("A1a(t1) <= -3", "the hero has a deceleration of at least 3 m/s^2"),
         ("A1v(t1) - A0v(t1) > 2", "the hero drives more than 2 m/s faster than the ego"),
         ("gap(A1, A0, t1) == -20", "the ego is 20 m behind the hero"),
-        ("tta(A0, conflict_point, t1) <= 4", "the ego is at most 4 s from the conflict point"),
+        ("tta(A0, conflict_point, t1) <= 4", "the ego is at most 4 s from the conflict point or past it"),
     ],
 )
 def test_however_it_is_written_it_is_one_measure(formula: str, words: str) -> None:

@@ -112,23 +112,33 @@ class Phrases:
             if isinstance(each, st.Measure) and each == st.standstill(each.actor):
                 free = [where for where in conditions if _is_where(where, each.actor) and where not in places.values()]
                 places.update({each: free[0]} if free else {})
+        near = {each: st.not_beyond(each) for each in conditions if isinstance(each, st.Measure)}
+        within = {each for each, other in near.items() if other in conditions}  # "at most 5 m before" says both
+        told = {*places.values(), *(near[each] for each in within)}
         found, spoken = [], set[int]()
         for each in conditions:
-            if each in places.values():
+            if each in told:
                 continue
             # Whoever alone has been spoken of is "it" from then on.
             known = each.actor if it is None and isinstance(each, st.Measure) and spoken == {each.actor} else it
             spoken |= st.people_in(each) | self._told_partners(each)
-            clause = self.clause(each, known, passing and each not in places)
+            clause = self.clause(each, known, passing and each not in places, each in within)
             where = f" {self.predicate(places[each]).removeprefix('is ')}" if each in places else ""
             found.append(clause + where)
         return found
 
-    def clause(self, condition: st.Condition, it: int | None = None, passing: bool = False) -> str:
-        """Return one condition as a clause; `passing` says that it is an event: ``the ego passes the stop line``."""
+    def clause(
+        self, condition: st.Condition, it: int | None = None, passing: bool = False, within: bool = False
+    ) -> str:
+        """Return one condition as a clause; `passing` says that it is an event: ``the ego passes the stop line``.
+
+        A bound `within` which somebody is on its side of a place is told without that it may be beyond that.
+        """
         if isinstance(condition, st.Measure):
             subject = "it" if condition.actor == it else self.name(condition.actor)
-            return f"{subject} {self.predicate(condition, passing)}"
+            is_open = not within and st.not_beyond(condition) is not None
+            beyond = f" or {'before' if condition.opposite else 'past'} it" if is_open else ""
+            return f"{subject} {self.predicate(condition, passing)}{beyond}"
         parts = [self._part(part, condition.joint, it) for part in condition.parts]
         if condition.joint == "not":
             return f"it is not so that {parts[0]}"

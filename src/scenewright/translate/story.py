@@ -301,6 +301,13 @@ def standstill(actor: int) -> Measure:
     return Measure(actor, Quantity.SPEED, "==", Amount(Fraction(0), "m/s"))
 
 
+def not_beyond(measure: Measure) -> Measure | None:
+    """Return what "at most 5 m before the stop line" says besides: that it is not past it; None of other measures."""
+    if measure.place is None or measure.amount is None or measure.op not in ("<", "<="):
+        return None
+    return Measure(measure.actor, Quantity.PLACE, ">=" if measure.opposite else "<=", None, measure.place)
+
+
 def is_event(each: Condition) -> TypeGuard[Measure]:
     """Whether a condition is that somebody comes to a place: nobody drives backwards, so it happens once."""
     return isinstance(each, Measure) and (each.quantity, each.op, each.amount) == (Quantity.PLACE, "==", None)

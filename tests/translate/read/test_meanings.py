@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 from readings import FILLED, Reading, reading_of, written
 
 from scenewright.program.printer import print_expression
+from scenewright.translate.read.sentences import read
+from scenewright.translate.tell import tell
 
 MEETS = FILLED["DL"] + FILLED["W"]  # the ego turns left out of the driveway, the hero drives west
 ALONG = "The ego drives west along the road. The hero is ahead of the ego and goes straight on. "
@@ -341,3 +345,118 @@ def test_what_begins_before_something_begins_before_it(said: str) -> None:
 def test_who_goes_first_does_so_at_its_own_conflict_point() -> None:
     found = formulas(reading_of(f"{THREE}{TRIGGER}. At the same time the van goes first."))
     assert "A0x(t2) == A0.conflict_point(A2)" in found
+
+
+JOINS = "The ego turns right out of the driveway. A car drives westbound along the road. "
+LEFT_AND_RIGHT = "The ego turns left out of the driveway. A car comes from its left and a truck comes from its right. "
+BRAKES = LEFT_AND_RIGHT + "When the ego is 10 m before its stop line, the car brakes at 3 m/s^2 to a stop. "
+
+
+def told_in(text: str) -> str:
+    """Return what is told of a text, with what is asked; ways do not matter here."""
+    story = read(text)
+    plain = replace(story, actors=tuple(replace(each, relations=()) for each in story.actors))
+    return "\n".join([*tell(plain), *(each.text for each in story.questions)])
+
+
+def test_when_somebody_begins_to_turn_is_of_that_and_not_of_when_it_has_turned() -> None:
+    for said in ("begins to turn", "drives on at 5 m/s and begins to turn"):
+        told = told_in(f"{ONCOMING}When the ego is 40 m before the conflict point, the hero {said} 3 s before the ego "
+                       "passes the conflict point.")  # fmt: skip
+        assert "The ego passes the conflict point 3 s after the hero begins to turn." in told
+    turns = told_in(f"{ONCOMING}When the ego is 40 m before the conflict point, the hero turns 1 s before the ego "
+                    "passes the conflict point.")  # fmt: skip
+    assert "When is this: hero turns" in turns
+
+
+@pytest.mark.parametrize(
+    ("said", "then"),
+    [
+        ("waits for 3 s and passes the conflict point", "drives on until it passes the conflict point"),
+        ("stands for 2 s and completes its turn", "drives on until it completes its turn"),
+        ("stops 3 m before the conflict point, waits for 4 s and then completes its turn", "drives on until it compl"),
+    ],
+)
+def test_who_stands_passes_nothing_until_it_has_stood(said: str, then: str) -> None:
+    told = told_in(f"{ONCOMING}When the ego is 40 m before the conflict point, the hero {said}.")
+    first, _, rest = told.partition("still for")
+    assert rest
+    assert then in rest
+    assert "passes the conflict point" not in first
+    assert "completes" not in first
+
+
+@pytest.mark.parametrize("then", ["Then the truck", "2 s later the truck"])
+def test_who_acts_after_another_has_stood_for_so_long_waits_for_that(then: str) -> None:
+    told = told_in(f"{BRAKES}The car stands for 6 s. {then} brakes to 5 m/s.")
+    assert "the car finishes standing still" in told.lower()
+    assert "When is this:" in told
+
+
+@pytest.mark.parametrize(
+    ("when", "told"),
+    [
+        ("At most 2 s before it stops", "The car finishes braking at most 2 s after the truck begins to brake."),
+        ("After it has stopped", "The car finishes braking before the truck begins to brake."),
+        ("Once it has stopped", "When the car finishes braking, the truck begins to brake"),
+    ],
+)
+def test_it_in_front_is_who_was_spoken_of_and_else_it_is_asked(when: str, told: str) -> None:
+    assert told in told_in(f"{BRAKES}{when}, the truck brakes to 5 m/s.")
+    assert "Who is 'it'?" in told_in(f"{BRAKES}Until it stops, the truck drives at 10 m/s.")
+
+
+@pytest.mark.parametrize("said", ["has been driving at 10 m/s for 3 s", "has braked to a stop", "has slowed to 5 m/s"])
+def test_what_somebody_has_done_by_then_is_nothing_that_it_does_then(said: str) -> None:
+    assert reading_of(f"{JOINS}When the ego is 10 m before its stop line, the car {said}.").kind == "refused"
+
+
+@pytest.mark.parametrize(
+    ("when", "told"),
+    [
+        ("As soon as the ego has passed its stop line", "When the ego passes the stop line,"),
+        ("As soon as the ego is past its stop line", "When the ego passes the stop line,"),
+        ("The moment the car drives at less than 9 m/s", "When the car drives at 9 m/s,"),
+        ("Once the ego has passed its stop line", "When the ego is at or past the stop line,"),
+    ],
+)
+def test_as_soon_as_something_is_so_is_the_moment_when_it_comes_to_be(when: str, told: str) -> None:
+    assert told in told_in(f"{JOINS}{when}, the car brakes to a stop.")
+
+
+def test_as_soon_as_two_bounds_hold_is_no_moment_that_can_be_told() -> None:
+    both = "the ego is less than 20 m before its stop line and the car drives at less than 9 m/s"
+    assert reading_of(f"{JOINS}As soon as {both}, the car brakes to a stop.").kind == "refused"
+
+
+def test_at_most_so_far_before_a_place_is_not_past_it_unless_that_is_said() -> None:
+    when = f"{JOINS}When the ego is 12 m before its stop line, the car is at most 5 m before the conflict point"
+    near = {"A1x(t1) >= conflict_point - 5", "A1x(t1) <= conflict_point"}
+    assert near <= formulas(reading_of(f"{when} and brakes to a stop."))
+    open_ended = formulas(reading_of(f"{when} or past it and brakes to a stop."))
+    assert near & open_ended == {"A1x(t1) >= conflict_point - 5"}
+    assert reading_of(f"{when} or before it and brakes to a stop.").kind == "refused"
+    timed = f"{JOINS}When the ego is 12 m before its stop line and the car is less than 3 s from the conflict point, "
+    assert "A1x(t1) <= conflict_point" in formulas(reading_of(f"{timed}the car brakes to a stop."))
+
+
+def test_what_is_so_while_something_is_done_is_asked_and_held_all_the_while() -> None:
+    told = told_in(f"{JOINS}When the ego is 12 m before its stop line, the car brakes at 3 m/s^2 to 5 m/s while the "
+                   "ego drives at no less than 2 m/s.")  # fmt: skip
+    assert "until the car finishes braking, always: the ego drives at a speed of at least 2 m/s." in told
+    assert "How long is this so" in told
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "the car and the truck brake to a stop, the car at 3 m/s^2, the truck at 4 m/s^2",
+        "the car brakes to a stop, waits until the ego is 5 m before it and then passes it",
+        "the car brakes to a stop before the truck does",
+    ],
+)
+def test_what_is_left_to_guess_is_refused(said: str) -> None:
+    assert reading_of(f"{LEFT_AND_RIGHT}When the ego is 10 m before its stop line, {said}.").kind in (
+        "asked",
+        "refused",
+    )

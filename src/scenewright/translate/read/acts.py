@@ -59,7 +59,8 @@ def acts_of(story: Narrative, items: list[Clause], happens: bool) -> list[Clause
             story.tell(item)
         before = found[-1] if found and found[-1].subject == item.subject else Clause(item.quote)
         twice = (before.deed, item.deed) == (st.Verb.BRAKE, "stop")
-        if before.deed not in (None, "stop") and item.is_event and not before.measures:
+        stands = before.deed in ("stop", st.Verb.STAND)  # who stands passes nothing: that comes after it
+        if before.deed is not None and not stands and item.is_event and not before.measures:
             before.measures, before.notes = item.measures, before.notes | item.notes
         elif twice and not before.says_more_than("deed", "phase", "rates", "measures", "times", "begins"):
             found[-1], item.rates, item.begins = item, [*before.rates, *item.rates], [*before.begins, *item.begins]
@@ -67,10 +68,13 @@ def acts_of(story: Narrative, items: list[Clause], happens: bool) -> list[Clause
             item.times |= {name: [*several, *item.times.get(name, ())] for name, several in before.times.items()}
             item.agree()
         elif item.says_more_than():
-            if is_hero and item.is_event:
+            if (is_hero or stands) and item.is_event:
                 item.deed, starts = st.Verb.DRIVE, [each.place for each in item.measures] == [st.Place("turn_start")]
-                if starts or "turns" in item.quote.text.lower().split():  # "then it turns"
+                turns = "turns" in item.quote.text.lower().split()
+                if starts or turns:  # "then it turns"
                     item.measures, item.deed = [], "turn"
+                if starts and not turns:  # what is told of when is of that, not of when it has turned
+                    item.phase, item.notes = "begins", item.notes - {"event"}
             found.append(item)
             comes = [each for each in item.measures if st.is_event(each)]
             if "to" in item.flags and "event" in item.notes and comes and item.deed in CHANGES:

@@ -39,6 +39,8 @@ def _attach(taken: Taken) -> None:
     for target in taken.targets:
         if target.place is not None and target.chunk.kind == "pronoun":
             target.place = taken.people.seen_by(target.place, clause.subject)
+            if target.place.of not in (None, clause.subject) and target.side == "at":
+                raise taken.left_over(target.chunk)  # nobody passes a stop line of another's way
         elif target.place is None and target.other is None:
             target.other = taken.people.whom(target.chunk.quote, clause.subject)
     if (clause.deed, clause.subject) == (st.Verb.STAND, EGO) and not clause.says_more_than("deed"):
@@ -51,6 +53,8 @@ def _attach(taken: Taken) -> None:
         taken.measure(last, st.Measure(IT, st.Quantity.PLACE, "==", None, st.Place(name)))
     for at, op, chunk in taken.amounts:
         _give(taken, at, op, chunk)
+    if taken.beyond:
+        raise taken.left_over(next(iter(taken.beyond.values())))
     for target in taken.targets:
         if not target.used:
             _stand_alone(taken, target)
@@ -118,7 +122,7 @@ def _of(measure: st.Measure, subject: int | None, people: Cast) -> st.Measure:
     place = replace(place, of=None) if place is not None and place.of == actor else place
     if place is not None and place.name == "conflict_point" and EGO in (place.of, actor if place.of is None else None):
         place = replace(place, partner=people.partner(place.partner, measure.quote or people.quote))
-    if place is not None:
+    if place is not None and place.name not in ("turn_start", "turn_end"):  # who turns names no place
         people.place = replace(place, of=actor if place.of is None else place.of)
     return replace(measure, actor=actor, other=other, place=place)
 
@@ -150,6 +154,8 @@ def _give(taken: Taken, at: int, op: st.Operator, chunk: Chunk) -> None:
         taken.measure(chunk, st.Measure(IT, st.Quantity.SPEED, op, amount))
         return
     if amount.dimension == "acceleration":
+        if clause.deed is None and named is None:
+            raise taken.left_over(chunk)  # "brake to a stop, the car at 3 m/s^2"
         slowing = named == "deceleration" or clause.deed in (st.Verb.BRAKE, "stop")
         if (clause.deed, named) in _CONTRARY:
             raise taken.left_over(chunk)  # nobody brakes with an acceleration
@@ -178,7 +184,13 @@ def _give(taken: Taken, at: int, op: st.Operator, chunk: Chunk) -> None:
         fits = past or side in _TO_PLACE or (side == "at" and named == "time to arrival")
         if not fits or named not in (None, "time to arrival", "gap"):
             raise taken.left_over(target.chunk)
-        taken.measure(chunk, st.Measure(IT, quantity, op, amount, place, opposite=past))
+        measure = st.Measure(IT, quantity, op, amount, place, opposite=past)
+        taken.measure(chunk, measure)
+        near, beyond = st.not_beyond(measure), taken.beyond.pop(at, None)
+        if beyond is not None and (near is None or (beyond.value == "before") is not past):
+            raise taken.left_over(beyond)
+        if near is not None and beyond is None and at not in taken.ranges:
+            taken.measure(target.chunk, near)
         return
     asked = named or ("headway" if is_time else "gap")
     fits = side in ("behind", "ahead") or (named is not None and side in ("to", "with"))

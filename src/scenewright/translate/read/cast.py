@@ -54,6 +54,15 @@ class Cast:
                 self.tell_way(actor, {trait.kind: trait.value})
         return actor
 
+    def settled(self, chunks: list[Chunk], following: Sequence[Chunk]) -> list[Chunk]:
+        """Return a fronted clause with who its "it" is: whom the last sentence was of, or who is named next."""
+        if self.subject is None or [each.value for each in chunks[:1]] != ["it"]:
+            return chunks
+        known = [each for each in following[:1] if each.kind in ("actor", "name") and not each.is_new]
+        people: list[int | None] = [*dict.fromkeys([*(self._named(each) for each in known), self.subject])]
+        actor = self.actor(self._one_of(people, "Who is 'it'?", len(people) - 1, chunks[0].quote) or 0)
+        return [replace(chunks[0], kind="name", value=actor.name), *chunks[1:]]
+
     def whom(self, quote: st.Quote, subject: int | None) -> int:
         """Return the only one who is meant and is not the subject: of the sentence, else of all."""
         others = set(self.mentioned) - {subject} or set(self.actors) - {subject}

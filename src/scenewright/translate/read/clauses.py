@@ -139,6 +139,7 @@ class Taken:
     amounts: list[tuple[int, st.Operator, Chunk]] = field(default_factory=list)
     last: Target | None = None  # what the last amount is counted to
     ranges: set[int] = field(default_factory=set)  # amounts that end a range: counted to what the one before is
+    beyond: dict[int, Chunk] = field(default_factory=dict)  # by amount: that it may be on the other side, too
     targets: list[Target] = field(default_factory=list)
     states: set[str] = field(default_factory=set)
     quantities: dict[Dimension, str] = field(default_factory=dict)  # that are named, by what they are amounts of
@@ -182,6 +183,8 @@ class Taken:
                 self._target(value)
             case "side":
                 self._side(chunk)
+            case "beyond" if self.amounts:
+                self.beyond[self.amounts[-1][0]] = chunk
             case "place" if reaches or self.peek()[0] in ("be", "event"):
                 self.at -= 1
                 self._target("at")

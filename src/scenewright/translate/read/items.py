@@ -19,6 +19,7 @@ from scenewright.translate.read.chunks import Chunk
 from scenewright.translate.read.clauses import BETWEEN_TWO, OPERATORS, PEOPLE, Clause
 
 ORDERS = ("before", "after", "no later than", "earlier than", "no earlier than")
+_AT_ONCE = ("as soon as", "the moment", "the instant")
 LINKS = ("when", "until", "from", *ORDERS[2:])
 # "No later than 2 s after" and "... before": one side is held, where "at most 2 s after" is after it, too.
 ONE_SIDE: dict[tuple[str, str], st.Operator] = {
@@ -53,6 +54,7 @@ class Segment:
     is_first: bool = False  # it stands in front of what happens
     lasts: bool = False  # it is so as long as something is done: "While ..."
     side: str = ""  # on which side of a moment it is until which something lasts: "until 1 s after the ego ..."
+    is_sharp: bool = False  # it is told to be at once: "as soon as ..."
 
 
 def parts_of(chunks: list[Chunk]) -> list[list[Chunk]]:
@@ -102,12 +104,15 @@ def segments_of(chunks: list[Chunk], is_led: bool = False) -> list[Segment]:
             else:
                 raise UnknownWordsError("it is not clear how much before or after this is", found=chunk.text)
         elif chunk.kind == "link" and chunk.value in LINKS:
-            found.append(Segment(chunk.value))
+            found.append(Segment(chunk.value, is_sharp=chunk.text.lower() in _AT_ONCE))
         else:
             found[-1].chunks.append(chunk)
     for before, segment in pairwise(found):  # "it passes the stop line before the ego (does)"
         if segment.link in ("before", "after") and all(chunk.kind in (*PEOPLE, "mood") for chunk in segment.chunks):
-            event = max(at for at, chunk in enumerate(before.chunks) if chunk.kind == "event")
+            event = max((at for at, chunk in enumerate(before.chunks) if chunk.kind == "event"), default=None)
+            if event is None:  # "brakes before the truck does"
+                named = " ".join(chunk.text for chunk in segment.chunks)
+                raise UnknownWordsError("it is not clear what is done then", found=named, fix="say what, with its verb")
             segment.chunks = [*segment.chunks[:1], *before.chunks[event:]]
     for segment in found:
         while segment.chunks and segment.chunks[-1].value in (",", "and", "==") and segment.link != "when":
@@ -163,6 +168,16 @@ def parted(chunks: list[Chunk]) -> tuple[list[Chunk], list[Chunk]]:
     cut = next(acts, commas[-1])
     main = chunks[cut + 1 :]
     return chunks[:cut], main[1:] if main and main[0].value == "then" else main
+
+
+def during_of(chunks: list[Chunk]) -> tuple[list[Chunk], list[Chunk]]:
+    """Part what is done from what is so while it is: "brakes to 5 m/s while the ego drives at 10 m/s or more"."""
+    for at, chunk in enumerate(chunks):
+        during = chunks[at + 1 :]
+        acts = tuple(any(each.kind in (*_ACTS, "kept") for each in part) for part in (chunks[:at], during))
+        if chunk.kind == "joint" and chunk.text.lower() == "while" and acts == (True, False):
+            return chunks[:at], during
+    return chunks, []
 
 
 def items_of(people: Cast, chunks: Sequence[Chunk], subject: int | None = None) -> list[Clause]:

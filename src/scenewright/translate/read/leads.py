@@ -154,11 +154,12 @@ def _after(story: Narrative, last: Doing | None, clause: Clause, leads: Leads) -
     if last.actor == clause.subject and (leads.own or leads.delay is None):
         return story.finish(last)
     ways: dict[str, tuple[Doing, bool]] = {}  # the deed, and whether its end
-    if last.ends is not None or last.rests:
+    if last.ends is not None or last.rests or last.lasts:
         ways[f"after {story.actor(last.actor).name} finishes {DOES[last.verb][2]}"] = last, True
     ways[f"after {story.actor(last.actor).name} begins to {DOES[last.verb][1]}"] = last, False
     # How much later somebody else reacts is told from what it may see first.
-    default = len(ways) - 1 if leads.delay is not None and last.actor != clause.subject else 0
+    reacts = leads.delay is not None and last.actor != clause.subject and not last.lasts
+    default = len(ways) - 1 if reacts else 0
     own = last_of(story, clause.subject)
     if own is not None and own is not last:
         ways[f"after {story.actor(own.actor).name} finishes {DOES[own.verb][2]}, whatever others do"] = own, True

@@ -196,6 +196,8 @@ class Narrative(Cast):
         """Return the moment that a list of clauses tells, known or new; `until` is whose deed ends then."""
         for item in items:
             item.flags -= {"falls"}  # what is reached is so when it is
+            if "then" in item.notes:  # "until the ego is 20 m before it and then passes it"
+                self.refuse("it is not clear who does this then", item.quote, "say it in a sentence of its own")
             if item.is_event and "has" in item.notes:  # "once the ego has passed it": then, or sooner
                 item.measures = [replace(each, op=">=") for each in item.measures]
             if item.deed == "stop" and item.subject in (until, EGO):  # "until it comes to a stop"; the ego has no deeds

@@ -19,7 +19,7 @@ from scenewright.translate.compile import DRIVEN, refused_deed, refused_kind
 from scenewright.translate.read.acts import acts_of, lasting
 from scenewright.translate.read.chunks import Chunk, sentences
 from scenewright.translate.read.clauses import PEOPLE, Clause, agree, is_upper
-from scenewright.translate.read.items import ORDERS, Segment, items_of, parted, parts_of, segments_of
+from scenewright.translate.read.items import ORDERS, Segment, during_of, items_of, parted, parts_of, segments_of
 from scenewright.translate.read.leads import Leads, last_of, leads_of, moment_led_to, same_time, told_before
 from scenewright.translate.read.narrative import CHANGES, Doing, Narrative, steady, take_labels
 
@@ -105,10 +105,20 @@ class _Sentence:
         if later is not None and not main.chunks:  # the moment stands in front, and is read first
             if any(chunk.kind in ("comma", "deed") for chunk in later.chunks):
                 later.chunks, main.chunks = parted(later.chunks)
-            when, is_while, later = items_of(story, later.chunks), later.lasts, None
+            when, is_while = items_of(story, later.chunks), later.lasts
             self.lasting = self._lasting(when) if is_while else []
+            when, later = _at_once(story, when) if later.is_sharp else when, None
+        if rest and rest[0].is_first:  # "after it has stopped, the truck ..."
+            rest[0].chunks = story.settled(rest[0].chunks, main.chunks)
+        main.chunks, during = during_of(main.chunks)
         items = items_of(story, main.chunks, story.subject)
-        self._main(items, when if later is None else items_of(story, later.chunks), rest)
+        if during:
+            told, is_while = items_of(story, during), True
+            when, self.lasting = [*(when or ()), *told], [*self.lasting, *self._lasting(told)]
+        if later is not None:
+            told = items_of(story, later.chunks)
+            when = [*(when or ()), *(_at_once(story, told) if later.is_sharp else told)]
+        self._main(items, when, rest)
         deeds = sum(each.deed is not None for each in items)
         if (is_while and known == len(story.doings)) or (self.lasting and deeds > 1):
             story.refuse("it is not clear how long this is so")
@@ -286,6 +296,9 @@ class _Sentence:
             story.refuse("it is not clear what is done here")
         if clause.phase == "finishes" or "after the start" in clause.times:
             story.refuse("nothing was told of this deed before")
+        if "has" in clause.notes:  # "when ..., the car has braked to a stop"
+            fix = "say what is so then, and before that what it did until then"
+            story.refuse("what somebody has done by then cannot be told so", clause.quote, fix)
         if sum(each.link == "until" for each in rest) > 1:
             story.refuse("two ends of one deed are told")
         if turned := self.led.own.partition("turn ")[2]:  # "after turning left, it ..."
@@ -329,6 +342,11 @@ class _Sentence:
             if story.ask(f"event {clause.quote.start}", asked, ways, 0, clause.quote) == ways[1]:
                 begins, ends = [*begins, *ends], []
         begun = clause.phase == "begins"  # "begins to brake to a stop 2 s before ..."
+        if clause.deed == "turn" and not begun and any(each.link in ORDERS and each.margins for each in rest):
+            ways = ["when it has turned", "when it begins to turn"]
+            asked = f"When is this: {clause.quote.text}"
+            begun = story.ask(f"turned {clause.quote.start}", asked, ways, 0, clause.quote) == ways[1]
+            is_event &= not begun
         orders = [each for each in rest if each.link in ORDERS and not is_event]
         # "When ..., it brakes to a stop within 2 s after ...": the moment says when it begins, this when it has.
         is_end = when is not None and bool(ends or clause.deed == "stop")
@@ -463,10 +481,12 @@ class _Sentence:
         start = self._point(self.chunks[1:until])
         end = self._point([each for each in self.chunks[until + 1 : at] if each.kind != "comma"])
         held = [each for each in self.chunks[at + 1 :] if each.text != ":"]
-        conditions = self.story.conditions(items_of(self.story, held))
-        if len(conditions) != 1:
+        items = items_of(self.story, held)
+        conditions = self.story.conditions(items)
+        if len(items) != 1 or not conditions:
             self.story.refuse("one condition holds all the while", fix="write a sentence for each")
-        self.story.holds.append(st.Hold(_HOW[how.value], start, end, conditions[0], self.story.quote))
+        condition = conditions[0] if len(conditions) == 1 else st.Compound("and", tuple(conditions))
+        self.story.holds.append(st.Hold(_HOW[how.value], start, end, condition, self.story.quote))
 
     def _ego_order(self) -> None:
         """Read ``In the ego's order: ..., then ...``."""
@@ -489,6 +509,21 @@ def _unknown_to_programs(chunks: Sequence[Chunk]) -> TranslationError | None:
         if chunk.kind == "deed" and chunk.value not in (*st.Verb, "stop"):
             return refused_deed(chunk.text.lower(), chunk.quote)
     return None
+
+
+def _at_once(story: Narrative, when: list[Clause]) -> list[Clause]:
+    """Return what is to be so as soon as it is so: a bound is just reached then, and who has passed just passes."""
+    measures = [each for clause in when for each in clause.measures]
+    passed = any(clause.is_event for clause in when)
+    if passed or any(each.op == "==" for each in measures) or not measures:
+        for clause in when:
+            clause.notes -= {"has"}
+        return when
+    if len(measures) > 1:
+        story.refuse("it is not clear which of these comes to be so then", fix="say one of them exactly, as in '20 m'")
+    for clause in when:
+        clause.measures = [replace(each, op="==") for each in clause.measures]
+    return when
 
 
 def _measures(conditions: Iterable[st.Condition]) -> Iterator[st.Measure]:
