@@ -367,6 +367,11 @@ def test_when_somebody_begins_to_turn_is_of_that_and_not_of_when_it_has_turned()
     turns = told_in(f"{ONCOMING}When the ego is 40 m before the conflict point, the hero turns 1 s before the ego "
                     "passes the conflict point.")  # fmt: skip
     assert "When is this: hero turns" in turns
+    for when, told in (("after the truck stops", "after the truck finishes"), ("before the truck begins to brake", "")):
+        text = f"{LEFT_AND_RIGHT}When the ego is 10 m before its stop line, the truck brakes to a stop. The car brakes "
+        text = told_in(f"{text}to a stop 2 s {when}.")
+        assert told in text
+        assert "When is this: car brakes to a stop" in text
 
 
 @pytest.mark.parametrize(

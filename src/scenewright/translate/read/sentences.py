@@ -342,14 +342,16 @@ class _Sentence:
             if story.ask(f"event {clause.quote.start}", asked, ways, 0, clause.quote) == ways[1]:
                 begins, ends = [*begins, *ends], []
         begun = clause.phase == "begins"  # "begins to brake to a stop 2 s before ..."
-        if clause.deed == "turn" and not begun and any(each.link in ORDERS and each.margins for each in rest):
-            ways = ["when it has turned", "when it begins to turn"]
-            asked = f"When is this: {clause.quote.text}"
-            begun = story.ask(f"turned {clause.quote.start}", asked, ways, 0, clause.quote) == ways[1]
-            is_event &= not begun
-        orders = [each for each in rest if each.link in ORDERS and not is_event]
         # "When ..., it brakes to a stop within 2 s after ...": the moment says when it begins, this when it has.
         is_end = when is not None and bool(ends or clause.deed == "stop")
+        dated = [each.link for each in rest if each.link in ORDERS and each.margins and not each.is_first]
+        whole = clause.deed == "turn" or (bool(ends) and not is_event and pending is None)
+        if dated and whole and not begun:  # "brakes to a stop 2 s after ..."
+            ways, at_first = ["when that begins", "when that is over"], dated[0] == "after" and clause.deed != "turn"
+            asked, default = f"When is this: {clause.quote.text}", 0 if at_first else 1
+            begun = story.ask(f"dated {clause.quote.start}", asked, ways, default, clause.quote) == ways[0]
+            is_end, is_event = not begun, is_event and not begun
+        orders = [each for each in rest if each.link in ORDERS and not is_event]
         fronts = [each for each in orders if begun or each.is_first
                   or (not is_end and (each.link == "after" or (each.margins and not ends)))]  # fmt: skip
         verb = {"stop": st.Verb.BRAKE, "turn": st.Verb.DRIVE, "go first": st.Verb.DRIVE}.get(clause.deed, clause.deed)
