@@ -164,6 +164,7 @@ FORMS = (
     # two actors
     Form("gap", "follow", "gap(A0, A1, t1) == 900", "gap(A0, A1, t1) == 45", "gap(A0, A1, t1) == 30"),
     Form("gap at a time", "follow", "gap(A0, A1, 2.0) == 900", "gap(A0, A1, 2.0) == 45", "gap(A0, A1, 2.0) == 30"),
+    Form("freespace", "follow", "freespace(A0, A1, t1) == 900", "freespace(A0, A1, t1) == 40", "gap(A0, A1, t1) == 30"),
     Form("headway", "near", "headway(A0, A1, t1) >= 60", "headway(A0, A1, t1) == 5", "headway(A0, A1, t1) == 2.5"),
     Form("ttc", "near", "ttc(A0, A1, t1) <= 0.2", "ttc(A0, A1, t1) == 6", "ttc(A0, A1, t1) == 12"),
     Form("tta", "cross", "tta(A1, conflict_point, t1) == 0.5", "tta(A1, conflict_point, t1) == 5", _FAST),

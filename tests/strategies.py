@@ -59,7 +59,7 @@ pieces = st.builds(
 moments = st.one_of(st.none(), st.builds(Knot, knots), elapsed, st.builds(Number, fractions))
 states = st.builds(State, actors, st.sampled_from([0, 1, 2]), moments | pieces)
 derived = st.builds(Derived, st.just("tta"), actors, landmarks, moments) | st.builds(
-    Derived, st.sampled_from(["gap", "ttc", "headway"]), actors, actors, moments
+    Derived, st.sampled_from(["gap", "freespace", "ttc", "headway"]), actors, actors, moments
 )
 numbers = st.builds(lambda value, sign: Number(sign * value), fractions, st.sampled_from([1, -1]))
 

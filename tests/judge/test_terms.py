@@ -85,6 +85,7 @@ class Motions:
         ("A0.stop_line - A0x(t1)", -15.0),
         ("gap(A0, A1, t1)", 20.0),
         ("gap(A1, A0, t1)", -20.0),
+        ("freespace(A0, A1, t1)", 15.5),
         ("headway(A0, A1, t1)", 1.55),  # 20 m less two half cars of 2.25 m, at 10 m/s
         ("ttc(A0, A1, t1)", 7.75),  # the same, closed at 2 m/s
         ("ttc(A1, A0, t1)", 7.75),  # of the two, whoever is in front

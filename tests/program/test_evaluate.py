@@ -81,6 +81,7 @@ class Straight:
         ("gap(A0, A1, 0) == 20", 0.0),
         ("gap(A1, A0, 0) == -20", 0.0),
         ("headway(A0, A1, 0) == 1.6", 0.0),
+        ("freespace(A0, A1, 0) == gap(A0, A1, 0) - 4", 0.0),
         ("ttc(A0, A1, 0) == 4", 0.0),
         ("tta(A0, stop_line, t1) == 3", 0.0),
         ("tta(A0, A1.stop_line, t1) == 3", 0.0),

@@ -41,6 +41,7 @@ EXPRESSIONS = [
     (lambda e, h, p: stop_line + 3 < e.x("t0"), "stop_line + 3 < A0x(t0)"),
     (lambda e, h, p: stop_line - e.x("t0") < 3, "stop_line - A0x(t0) < 3"),
     (lambda e, h, p: e.gap_to(h, "t1") == p, "gap(A0, A1, t1) == p_m"),
+    (lambda e, h, p: e.freespace(h, 2) >= 5, "freespace(A0, A1, 2) >= 5"),
     (lambda e, h, p: e.ttc(h, 2) < e.headway(h, h.time("t1")), "ttc(A0, A1, 2) < headway(A0, A1, A1(t1))"),
     (lambda e, h, p: h.tta(conflict_point.of(e), "t1") == 2, "tta(A1, A0.conflict_point, t1) == 2"),
     (

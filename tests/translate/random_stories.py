@@ -41,7 +41,8 @@ PARAMETERS: dict[Dimension, tuple[str, ...]] = {
 }  # fmt: skip
 NAMES = ("hero", "truck", "van", "bus", "taxi", "blue_car", "other", "hero2", "the", "A1")
 OF: dict[Quantity, Dimension] = {
-    Quantity.PLACE: "length", Quantity.GAP: "length", Quantity.SPEED: "speed", Quantity.RATE: "acceleration",
+    Quantity.PLACE: "length", Quantity.GAP: "length", Quantity.FREE_SPACE: "length", Quantity.SPEED: "speed",
+    Quantity.RATE: "acceleration",
     Quantity.ARRIVAL: "time", Quantity.HEADWAY: "time", Quantity.COLLISION: "time",
 }  # fmt: skip
 

@@ -34,7 +34,19 @@ def test_a_row_is_what_is_told_and_reads_back(constraint: str, told: str) -> Non
 
 def test_there_is_a_row_for_every_quantity() -> None:
     assert len(ROWS) >= 30
-    for word in ("gap(", "headway(", "ttc(", "tta(", "always[", "never[", "eventually[", " or ", "not ", "implies"):
+    for word in (
+        "gap(",
+        "freespace(",
+        "headway(",
+        "ttc(",
+        "tta(",
+        "always[",
+        "never[",
+        "eventually[",
+        " or ",
+        "not ",
+        "implies",
+    ):
         assert any(word in constraint for constraint, _ in ROWS), word
 
 

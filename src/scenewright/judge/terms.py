@@ -154,6 +154,8 @@ class _Reader:
         if term.kind == "gap":
             return gap
         bodies = 0.5 * (self.case.box(term.actor).length_m + self.case.box(term.target).length_m)
+        if term.kind == "freespace":
+            return gap - bodies
         if term.kind == "headway":
             return _over(gap - bodies, speed)
         closing = (speed - self.case.timelines[term.target].speed(time_s)) * np.sign(gap)

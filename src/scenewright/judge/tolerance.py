@@ -158,7 +158,7 @@ def _exponents(term: Term) -> Exponents | None:
         case State(order=order):
             return _EXPONENTS[_STATE[order]]
         case Derived(kind=kind):
-            return _EXPONENTS["length" if kind == "gap" else "time"]
+            return _EXPONENTS["length" if kind in ("gap", "freespace") else "time"]
         case Negate(operand=operand):
             return _exponents(operand)
         case Arithmetic(operator=("+" | "-"), left=left, right=right):

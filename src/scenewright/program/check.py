@@ -24,7 +24,7 @@ Powers = tuple[int, int] | None
 _LENGTH, _TIME, _SPEED, _ACCELERATION = (1, 0), (0, 1), (1, -1), (1, -2)
 _OF_ORDER = (_LENGTH, _SPEED, _ACCELERATION)
 _OF_DIMENSION = {"length": _LENGTH, "time": _TIME, "speed": _SPEED, "acceleration": _ACCELERATION}
-_OF_DERIVED = {"gap": _LENGTH, "tta": _TIME, "ttc": _TIME, "headway": _TIME}
+_OF_DERIVED = {"gap": _LENGTH, "freespace": _LENGTH, "tta": _TIME, "ttc": _TIME, "headway": _TIME}
 _EXAMPLE_S = ex.Number(Fraction("3.4"))
 # What a piece is, and how a bound on its rate reads that leaves but weaker ones.
 _WEAK = {PieceKind.DEC: ("braking", ">"), PieceKind.ACC: ("speeding up", "<")}

@@ -215,6 +215,8 @@ def _derived(term: ex.Derived, world: World, now_s: float | None) -> float:
     if term.kind == "gap":
         return gap
     body = world.between_m
+    if term.kind == "freespace":
+        return gap - body
     if term.kind == "headway":
         return _ratio(gap - body, speed)
     closing = speed - world.state(term.target, 1, time_s)

@@ -114,16 +114,16 @@ class State:
     frame: int | None = None
 
 
-DerivedKind = Literal["gap", "tta", "ttc", "headway"]
+DerivedKind = Literal["gap", "freespace", "tta", "ttc", "headway"]
 
 
 @dataclass(frozen=True, slots=True)
 class Derived:
     """A quantity computed from states at one moment.
 
-    ``gap(A0, A1, t)``: how far A1 is ahead of A0 (m, between reference points). ``tta(A0, landmark, t)``: distance over
-    speed (s). ``ttc(A0, A1, t)``: what lies between their bodies over the closing speed (s).
-    ``headway(A0, A1, t)``: the same over A0's speed (s).
+    ``gap(A0, A1, t)``: how far A1 is ahead of A0 (m, between reference points). ``freespace(A0, A1, t)``: what lies
+    between their bodies then (m). ``tta(A0, landmark, t)``: distance over speed (s). ``ttc(A0, A1, t)``: what lies
+    between their bodies over the closing speed (s). ``headway(A0, A1, t)``: the same over A0's speed (s).
     The moment is a knot of the first actor, another actor's knot, or a time.
     """
 

@@ -230,6 +230,10 @@ class Vehicle:
         """Return how far `other` is ahead (m), between reference points, along the lane that both share."""
         return self._derived("gap", other.id, at)
 
+    def freespace(self, other: Vehicle, at: Moment = None) -> Quantity:
+        """Return what lies between the bodies (m), with `other` ahead, along the lane that both share."""
+        return self._derived("freespace", other.id, at)
+
     def ttc(self, other: Vehicle, at: Moment = None) -> Quantity:
         """Return the time to collision with `other` ahead: what lies between the bodies, over the closing speed (s)."""
         return self._derived("ttc", other.id, at)

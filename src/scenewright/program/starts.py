@@ -33,4 +33,4 @@ def says_how_near(program: Program, structure: Structure, actor: int, other: int
     placed = {node.actor for node in asked if isinstance(node, State) and node.order == 0}
     in_time = bool(apart & {"headway", "ttc"}) or {actor, other} <= timed
     is_fast = any(isinstance(node, State) and (node.actor, node.order) == (actor, 1) for node in asked)
-    return in_time or (is_fast and ("gap" in apart or {actor, other} <= placed))
+    return in_time or (is_fast and (bool(apart & {"gap", "freespace"}) or {actor, other} <= placed))

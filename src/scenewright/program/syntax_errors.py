@@ -28,7 +28,7 @@ _TERMINAL_NAMES = {
     "LPAR": "'('",
     "LSQB": "'['",
     "ACTOR": "an actor such as A1",
-    "DERIVED": "gap, tta, ttc or headway",
+    "DERIVED": "gap, freespace, tta, ttc or headway",
     "TEMPORAL": "always, never or eventually",
     "HEADING": "a heading N, E, S or W",
     "INTEGER": "a whole number",

@@ -31,6 +31,7 @@ UNNAMED = ("description", "program")  # what programs are called that nobody gav
 ORDERS: dict[st.Quantity, ex.Order] = {st.Quantity.PLACE: 0, st.Quantity.SPEED: 1, st.Quantity.RATE: 2}
 DERIVED: dict[st.Quantity, ex.DerivedKind] = {
     st.Quantity.GAP: "gap",
+    st.Quantity.FREE_SPACE: "freespace",
     st.Quantity.HEADWAY: "headway",
     st.Quantity.COLLISION: "ttc",
     st.Quantity.ARRIVAL: "tta",

@@ -30,6 +30,7 @@ _QUANTITIES = {kind: quantity for quantity, kind in DERIVED.items()}
 _DIMENSIONS: dict[st.Quantity, Dimension] = {
     st.Quantity.PLACE: "length",
     st.Quantity.GAP: "length",
+    st.Quantity.FREE_SPACE: "length",
     st.Quantity.SPEED: "speed",
     st.Quantity.RATE: "acceleration",
 }  # the others are times

@@ -179,8 +179,8 @@ class Phrases:
             case st.Quantity.GAP if measure.other is not None:
                 bound = "" if (measure.op, measure.amount) == (">", NO_GAP) else f"{bound} "
                 return f"is {bound}behind {self.name(measure.other)}"
-            case st.Quantity.HEADWAY if measure.other is not None:
-                return f"has a headway of {bound} to {self.name(measure.other)}"
+            case st.Quantity.FREE_SPACE | st.Quantity.HEADWAY if measure.other is not None:
+                return f"has a {measure.quantity} of {bound} to {self.name(measure.other)}"
             case st.Quantity.COLLISION if measure.other is not None:
                 return f"has a time to collision of {bound} with {self.name(measure.other)}"
         raise untold(f"a {measure.quantity} to nothing")

@@ -66,6 +66,7 @@ class Quantity(StrEnum):
     SPEED = "speed"
     RATE = "acceleration"
     GAP = "gap"  # how far `other` is ahead
+    FREE_SPACE = "bumper-to-bumper gap"  # likewise, between the bodies
     HEADWAY = "headway"
     COLLISION = "time to collision"
 
@@ -92,7 +93,9 @@ class Measure:
     op: Operator
     amount: Amount | None = None
     place: Place | None = None
-    other: int | None = None  # whom a gap, a headway or a time to collision is to; whose speed a speed is held against
+    other: int | None = (
+        None  # whom a distance, a headway or a time to collision is to; whose speed a speed is held against
+    )
     opposite: bool = False
     quote: Quote | None = field(default=None, compare=False, repr=False)
 

@@ -22,6 +22,7 @@ _INSTEAD = "it passes the conflict point"
 # How somebody's way begins against another's, in quarters of the compass to the right of it.
 BEARINGS = {"oncoming": 2, "from the left": 1, "from the right": 3, "ahead": 0, "behind": 0, "same way": 0}
 IN_LINE = ("ahead", "behind", "same way")
+_APART = (st.Quantity.GAP, st.Quantity.FREE_SPACE, st.Quantity.HEADWAY)
 
 
 def put_on_map(story: st.Story, road_map: RoadMap, answers: Mapping[str, str] | None = None) -> st.Story:
@@ -58,9 +59,9 @@ def put_on_map(story: st.Story, road_map: RoadMap, answers: Mapping[str, str] | 
 
 
 def _in_one_lane(story: st.Story) -> st.Story:
-    """Let somebody of whose way nothing is told be in one lane with whom it has a gap or a headway at the start to."""
+    """Let somebody of whose way nothing is told be in one lane with whom it has a distance at the start to."""
     pairs = [{each.actor, each.other} for each in story.moments[st.START].conditions
-             if isinstance(each, st.Measure) and each.quantity in (st.Quantity.GAP, st.Quantity.HEADWAY)]  # fmt: skip
+             if isinstance(each, st.Measure) and each.quantity in _APART]  # fmt: skip
     actors, assumed, phrases = list[st.Actor](), [*story.assumptions], Phrases(story)
     for actor in story.actors:
         others = [each for pair in pairs for each in pair - {actor.id} if actor.id in pair and each is not None]

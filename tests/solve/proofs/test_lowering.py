@@ -22,7 +22,7 @@ from scenewright.solve.proofs.narrowing import Narrowing
 FORMS = [
     "A1x(t1) == 90", "A1v(t1) <= 6", "A1v(A0(t2)) >= 4", "A1x(2.0) <= 100", "A1(t2) - A1(t1) >= 2 s", "A1(t1) < A0(t2)",
     "A1v(t1) - A0v(t1) <= 1", "A1v(t1) * 2 s >= 9 m", "A1v(t1) / A1v(t0) <= 1 / 2", "5 <= A1v(t1) <= 7",
-    "tta(A1, route_end, t1) <= 60", "gap(A0, A1, t1) >= 5", "headway(A0, A1, t1) >= 1",
+    "tta(A1, route_end, t1) <= 60", "gap(A0, A1, t1) >= 5", "freespace(A0, A1, t1) >= 1", "headway(A0, A1, t1) >= 1",
     "ttc(A0, A1, t1) >= 3", "ttc(A1, A0, t1) <= 9", "A1x(t1) - A0x(t1) >= 3", "A1x(t1) == A0x(t1) + 20",
     "not (A1v(t1) >= 6)", "A1v(t1) >= 6 or A0v(t1) >= 6", "A1v(t1) >= 6 implies A0v(t1) >= 6",
     "not (A1v(t1) >= 6 and A0v(t1) >= 6)", "not (A1v(t1) == 6)",

@@ -465,3 +465,16 @@ def test_what_is_left_to_guess_is_refused(said: str) -> None:
         "asked",
         "refused",
     )
+
+
+@pytest.mark.parametrize(
+    "when",
+    [
+        "the bumper-to-bumper gap is 15 m",
+        "the ego is 15 m bumper to bumper behind the hero",
+        "the bumper-to-bumper distance to the hero falls to 15 m",
+        "the hero has a bumper-to-bumper gap of 15 m to the ego",
+    ],
+)
+def test_a_gap_from_bumper_to_bumper_is_between_bodies(when: str) -> None:
+    assert "freespace(A0, A1, t1) == 15" in formulas(reading_of(f"{ALONG}When {when}, the hero brakes."))

@@ -21,7 +21,9 @@ TIGHT: dict[Dimension, Fraction] = {
     "acceleration": Fraction(1, 4),
 }
 _OF_ORDER: tuple[Dimension, ...] = ("length", "speed", "acceleration")
-_OF_DERIVED: dict[str, Dimension] = {"gap": "length", "tta": "time", "ttc": "time", "headway": "time"}
+_OF_DERIVED: dict[str, Dimension] = {
+    "gap": "length", "freespace": "length", "tta": "time", "ttc": "time", "headway": "time",
+}  # fmt: skip
 
 
 def asserted(formula: ex.Formula, program: Program, denied: bool = False) -> ex.Formula:

@@ -209,7 +209,7 @@ class Lowering:
         return Case(top, below, given, endless)
 
     def _derived(self, term: ex.Derived, now: int | None) -> list[Case]:
-        """Return a gap, or a quotient of a distance and a speed; times to collision and headways are between bodies."""
+        """Return a distance of two, or a quotient of one and a speed; all but a gap are between bodies."""
         events, scene = self.events, self.events.scene
         instant = now if term.at is None else self._instant(term.at, term.actor)
         assert instant is not None
@@ -221,6 +221,8 @@ class Lowering:
         if term.kind == "gap":
             return [_case(gap)]
         body = pin(VEHICLE_LENGTH_M)
+        if term.kind == "freespace":
+            return [_case(gap - body)]
         if term.kind == "headway":
             return [Case(gap - body, mine.speed, endless=True)]
         closing = mine.speed - other.speed

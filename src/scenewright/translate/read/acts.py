@@ -6,8 +6,13 @@ somebody does not do are given to the narrative.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
+from scenewright.errors import TranslationError
 from scenewright.program.types import EGO
 from scenewright.translate import story as st
+from scenewright.translate.compile import DRIVEN, refused_deed, refused_kind
+from scenewright.translate.read.chunks import Chunk
 from scenewright.translate.read.clauses import Clause
 from scenewright.translate.read.narrative import CHANGES, COURTESIES, REFRAINS, Narrative
 
@@ -92,3 +97,18 @@ def lasting(clause: Clause) -> None:
         clause.deed, clause.measures = st.Verb.STAND, [each for each in clause.measures if each != stands]
     elif clause.deed is None and ("drives" in clause.notes or "kept" in clause.flags):
         clause.deed = st.Verb.DRIVE
+
+
+def is_beside(measure: st.Measure) -> bool:
+    """Whether it is of where somebody is beside another, and so no way of driving."""
+    return measure.other is not None and measure.quantity is not st.Quantity.SPEED
+
+
+def unknown_to_programs(chunks: Sequence[Chunk]) -> TranslationError | None:
+    """Return the error that names what no program can say: where a sentence has that, it is why it is not read."""
+    for chunk in chunks:
+        if chunk.kind == "actor" and chunk.value not in (*DRIVEN, "ego", "hero"):
+            return refused_kind(chunk.value, chunk.quote)
+        if chunk.kind == "deed" and chunk.value not in (*st.Verb, "stop"):
+            return refused_deed(chunk.text.lower(), chunk.quote)
+    return None

@@ -199,5 +199,10 @@ def _give(taken: Taken, at: int, op: st.Operator, chunk: Chunk) -> None:
     behind = side == "ahead"  # it is the other one that is behind
     if asked == "gap" and side in ("to", "with"):
         behind = taken.people.rear(clause.subject or EGO, target.other, chunk.quote) == target.other
+    elif asked == "bumper-to-bumper gap" and side in (
+        "to",
+        "with",
+    ):  # who has one is behind, unless it was said to lead
+        behind = taken.people.told_rear(clause.subject or EGO, target.other) == target.other
     one, other = (target.other, IT) if behind else (IT, target.other)
     taken.measure(chunk, st.Measure(one, st.Quantity(asked), op, amount, other=other))

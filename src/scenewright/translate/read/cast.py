@@ -124,11 +124,16 @@ class Cast:
         """Return who of two drives behind the other: as was said, else the first, which is a question."""
         if one == other:
             self.refuse("one and the same is named twice", quote)
+        known = self.told_rear(one, other)
+        return (self._one_of([one, other], "Who drives behind?", 0, quote) or 0) if known is None else known
+
+    def told_rear(self, one: int, other: int) -> int | None:
+        """Return who of two was said to drive behind the other, if anybody was."""
         for actor in self.actors.values():
             for relation in actor.relations:
                 if {actor.id, relation.of} == {one, other} and relation.kind in ("ahead", "behind"):
                     return actor.id if relation.kind == "behind" else relation.of
-        return self._one_of([one, other], "Who drives behind?", 0, quote) or 0
+        return None
 
     def _it(self, chunk: Chunk, acts: bool) -> int:
         if self.doer is not None:

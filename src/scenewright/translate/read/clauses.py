@@ -33,10 +33,11 @@ _AFTER = {  # what may stand behind a side that says no more than that it belong
     "for": _OF_AMOUNTS, "in": _OF_AMOUNTS, "with": (*_OF_AMOUNTS, "turn", "deed"), "by": ("turn", "deed"),
 }  # fmt: skip
 _DIMENSIONS: dict[str, Dimension] = {
-    "speed": "speed", "gap": "length", "headway": "time", "time to collision": "time", "time to arrival": "time",
+    "speed": "speed", "gap": "length", "bumper-to-bumper gap": "length", "headway": "time",
+    "time to collision": "time", "time to arrival": "time",
     "rate": "acceleration", "acceleration": "acceleration", "deceleration": "acceleration",
 }  # fmt: skip
-BETWEEN_TWO = ("gap", "headway", "time to collision")
+BETWEEN_TWO = ("gap", "bumper-to-bumper gap", "headway", "time to collision")
 _INITIAL = (("at", "link", "start"), ("with", "link", "start"))  # "with an initial speed of"
 
 

@@ -7,14 +7,14 @@ What happens at these is none of its business.
 from __future__ import annotations
 
 from collections.abc import Sequence, Set
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import zip_longest
 
 from scenewright.translate import story as st
 from scenewright.translate.phrases import DOES
 from scenewright.translate.read.chunks import Chunk
 from scenewright.translate.read.clauses import OPERATORS, PEOPLE, Clause
-from scenewright.translate.read.items import Margin, margins_of
+from scenewright.translate.read.items import Margin, Segment, items_of, margins_of
 from scenewright.translate.read.narrative import CHANGES, Doing, Narrative
 
 _WORDS = ("then", "at once", "later", "meanwhile", "start", "same time")
@@ -170,3 +170,41 @@ def _after(story: Narrative, last: Doing | None, clause: Clause, leads: Leads) -
     if deed is own and own is not last and leads.delay is None:
         return None
     return story.finish(deed) if is_end else deed.begins
+
+
+def told_moment(story: Narrative, segment: Segment) -> list[Clause]:
+    """Return what is so at a moment; as soon as it is so a bound is just reached, and who has passed just passes."""
+    when = items_of(story, segment.chunks)
+    measures = [each for clause in when for each in clause.measures]
+    if not segment.is_sharp or not measures:
+        return when
+    for clause in when:
+        clause.notes -= {"has"}
+    if all(each.op != "==" for each in measures):
+        if len(measures) > 1:
+            fix = "say one of them exactly, as in '20 m'"
+            story.refuse("it is not clear which of these comes to be so then", fix=fix)
+        for clause in when:
+            clause.measures = [replace(each, op="==") for each in clause.measures]
+    return when
+
+
+def all_the_while(story: Narrative, when: list[Clause]) -> list[st.Condition]:
+    """Return what is so all the while: "While the ego stands, ..."; what is exact is so at a moment."""
+    moving = list[st.Condition]()
+    for clause in when:
+        if clause.deed is not None:
+            story.assumptions.append(f"'{clause.quote.text}' is from when that begins")
+        moving += [each for each in clause.conditions if not isinstance(each, st.Measure) or each.op != "=="
+                   or each == st.standstill(each.actor)]  # fmt: skip
+    ways = ["all the while", "when it begins"]
+    asked = f"How long is this so: {story.quote.text}"
+    keeps = moving and story.ask(f"while {story.quote.start}", asked, ways, 0, story.quote) == ways[0]
+    return moving if keeps else []
+
+
+def is_of_its_begin(story: Narrative, clause: Clause, *, at_first: bool) -> bool:
+    """Ask whether a deed that is told to be so long before or after something begins then, or is over then."""
+    ways, asked = ["when that begins", "when that is over"], f"When is this: {clause.quote.text}"
+    default = 0 if at_first else 1
+    return story.ask(f"dated {clause.quote.start}", asked, ways, default, clause.quote) == ways[0]

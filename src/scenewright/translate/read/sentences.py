@@ -15,12 +15,21 @@ from scenewright.errors import Place as Where
 from scenewright.errors import Span, TranslationError
 from scenewright.program.types import EGO
 from scenewright.translate import story as st
-from scenewright.translate.compile import DRIVEN, refused_deed, refused_kind
-from scenewright.translate.read.acts import acts_of, lasting
+from scenewright.translate.read.acts import acts_of, is_beside, lasting, unknown_to_programs
 from scenewright.translate.read.chunks import Chunk, sentences
 from scenewright.translate.read.clauses import PEOPLE, Clause, agree, is_upper
 from scenewright.translate.read.items import ORDERS, Segment, during_of, items_of, parted, parts_of, segments_of
-from scenewright.translate.read.leads import Leads, last_of, leads_of, moment_led_to, same_time, told_before
+from scenewright.translate.read.leads import (
+    Leads,
+    all_the_while,
+    is_of_its_begin,
+    last_of,
+    leads_of,
+    moment_led_to,
+    same_time,
+    told_before,
+    told_moment,
+)
 from scenewright.translate.read.narrative import CHANGES, Doing, Narrative, steady, take_labels
 
 _HOW: dict[str, st.How] = {"always": "always", "never": "never", "at some time": "at some time"}
@@ -49,7 +58,7 @@ def read(text: str, answers: Mapping[str, str] | None = None, name: str = "descr
                 sentence.read()
             narrative.settle()
         except TranslationError as error:
-            if (unknown := _unknown_to_programs(chunks)) is None and narrative.is_open:
+            if (unknown := unknown_to_programs(chunks)) is None and narrative.is_open:
                 continue  # that is asked about first
             error = unknown or error
             error.place = error.place or Where(name, text, narrative.quote.span)
@@ -105,19 +114,17 @@ class _Sentence:
         if later is not None and not main.chunks:  # the moment stands in front, and is read first
             if any(chunk.kind in ("comma", "deed") for chunk in later.chunks):
                 later.chunks, main.chunks = parted(later.chunks)
-            when, is_while = items_of(story, later.chunks), later.lasts
-            self.lasting = self._lasting(when) if is_while else []
-            when, later = _at_once(story, when) if later.is_sharp else when, None
+            when, is_while, later = told_moment(story, later), later.lasts, None
+            self.lasting = all_the_while(story, when) if is_while else []
         if rest and rest[0].is_first:  # "after it has stopped, the truck ..."
             rest[0].chunks = story.settled(rest[0].chunks, main.chunks)
         main.chunks, during = during_of(main.chunks)
         items = items_of(story, main.chunks, story.subject)
         if during:
             told, is_while = items_of(story, during), True
-            when, self.lasting = [*(when or ()), *told], [*self.lasting, *self._lasting(told)]
+            when, self.lasting = [*(when or ()), *told], [*self.lasting, *all_the_while(story, told)]
         if later is not None:
-            told = items_of(story, later.chunks)
-            when = [*(when or ()), *(_at_once(story, told) if later.is_sharp else told)]
+            when = [*(when or ()), *told_moment(story, later)]
         self._main(items, when, rest)
         deeds = sum(each.deed is not None for each in items)
         if (is_while and known == len(story.doings)) or (self.lasting and deeds > 1):
@@ -126,19 +133,6 @@ class _Sentence:
             deed = story.doings[-1]
             start, end = st.Point(deed.begins), st.Point(story.finish(deed))
             story.holds += [st.Hold("always", start, end, each, story.quote) for each in self.lasting]
-
-    def _lasting(self, when: list[Clause]) -> list[st.Condition]:
-        """Return what is so all the while: "While the ego stands, ..."; what is exact is so at a moment."""
-        story, moving = self.story, list[st.Condition]()
-        for clause in when:
-            if clause.deed is not None:
-                story.assumptions.append(f"'{clause.quote.text}' is from when that begins")
-            moving += [each for each in clause.conditions if not isinstance(each, st.Measure) or each.op != "=="
-                       or each == st.standstill(each.actor)]  # fmt: skip
-        ways = ["all the while", "when it begins"]
-        asked = f"How long is this so: {story.quote.text}"
-        keeps = moving and story.ask(f"while {story.quote.start}", asked, ways, 0, story.quote) == ways[0]
-        return moving if keeps else []
 
     def _main(self, items: list[Clause], when: list[Clause] | None, rest: list[Segment]) -> None:
         story = self.story
@@ -158,7 +152,7 @@ class _Sentence:
         if when is not None and not any(each.is_event for each in items[:acts]):
             when, items = [*when, *items[:acts]], items[acts:]  # "when ..., the hero is 20 m before it and brakes"
         first = items[0] if items else Clause(story.quote)
-        if until and not any(_beside(each) for each in first.measures):
+        if until and not any(is_beside(each) for each in first.measures):
             lasting(first)  # "drives 20 m ahead of the ego until ..." is so, and nothing that it does
         last = last_of(story, first.subject)
         if first.deed is None and last is not None and last.rests and last.ends is None:
@@ -347,9 +341,7 @@ class _Sentence:
         dated = [each.link for each in rest if each.link in ORDERS and each.margins and not each.is_first]
         whole = clause.deed == "turn" or (bool(ends) and not is_event and pending is None)
         if dated and whole and not begun:  # "brakes to a stop 2 s after ..."
-            ways, at_first = ["when that begins", "when that is over"], dated[0] == "after" and clause.deed != "turn"
-            asked, default = f"When is this: {clause.quote.text}", 0 if at_first else 1
-            begun = story.ask(f"dated {clause.quote.start}", asked, ways, default, clause.quote) == ways[0]
+            begun = is_of_its_begin(story, clause, at_first=dated[0] == "after" and clause.deed != "turn")
             is_end, is_event = not begun, is_event and not begun
         orders = [each for each in rest if each.link in ORDERS and not is_event]
         fronts = [each for each in orders if begun or each.is_first
@@ -503,35 +495,5 @@ class _Sentence:
         self.story.ego = tuple(self._event_of(chunks) for chunks in events if chunks)
 
 
-def _unknown_to_programs(chunks: Sequence[Chunk]) -> TranslationError | None:
-    """Return the error that names what no program can say: where a sentence has that, it is why it is not read."""
-    for chunk in chunks:
-        if chunk.kind == "actor" and chunk.value not in (*DRIVEN, "ego", "hero"):
-            return refused_kind(chunk.value, chunk.quote)
-        if chunk.kind == "deed" and chunk.value not in (*st.Verb, "stop"):
-            return refused_deed(chunk.text.lower(), chunk.quote)
-    return None
-
-
-def _at_once(story: Narrative, when: list[Clause]) -> list[Clause]:
-    """Return what is to be so as soon as it is so: a bound is just reached then, and who has passed just passes."""
-    measures = [each for clause in when for each in clause.measures]
-    passed = any(clause.is_event for clause in when)
-    if passed or any(each.op == "==" for each in measures) or not measures:
-        for clause in when:
-            clause.notes -= {"has"}
-        return when
-    if len(measures) > 1:
-        story.refuse("it is not clear which of these comes to be so then", fix="say one of them exactly, as in '20 m'")
-    for clause in when:
-        clause.measures = [replace(each, op="==") for each in clause.measures]
-    return when
-
-
 def _measures(conditions: Iterable[st.Condition]) -> Iterator[st.Measure]:
     return (each for each in conditions if isinstance(each, st.Measure))
-
-
-def _beside(measure: st.Measure) -> bool:
-    """Whether it is of where somebody is beside another, and so no way of driving."""
-    return measure.other is not None and measure.quantity is not st.Quantity.SPEED
