@@ -478,3 +478,107 @@ def test_what_is_left_to_guess_is_refused(said: str) -> None:
 )
 def test_a_gap_from_bumper_to_bumper_is_between_bodies(when: str) -> None:
     assert "freespace(A0, A1, t1) == 15" in formulas(reading_of(f"{ALONG}When {when}, the hero brakes."))
+
+
+WEST_EAST = (
+    "The ego turns left out of the driveway. A car drives west along the road. A truck drives east along the road. "
+)
+AT_LINE = f"{WEST_EAST}When the ego is 12 m before the stop line, "
+LEAD = "The ego drives west along the road. The hero is ahead of the ego and goes straight on. "
+
+
+@pytest.mark.parametrize(
+    ("said", "so"),
+    [
+        ("the car, 30 m before the conflict point, brakes to a stop", "the car is 30 m before the conflict point"),
+        ("the car (30 m before the conflict point) brakes to a stop", "the car is 30 m before the conflict point"),
+        (
+            "the car that is 30 m before the conflict point brakes to a stop",
+            "the car is 30 m before the conflict point",
+        ),
+        ("30 m before the conflict point the car brakes to a stop", "the car is 30 m before the conflict point"),
+        ("the car, driving at 8 m/s, brakes to a stop", "the car drives at 8 m/s"),
+        ("the car drives at 8 m/s, brakes to a stop, and waits for 2 s", "the car drives at 8 m/s"),
+    ],
+)
+def test_what_is_put_between_somebody_and_its_deed_parts_them_not(said: str, so: str) -> None:
+    told = told_in(f"{AT_LINE}{said}.")
+    assert f"before the stop line and {so}, the car begins to brake until it stands." in told
+    assert "the truck" not in told.partition("When")[2]
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "the car brakes to a stop, as does the truck",
+        "the car brakes to a stop and so does the truck",
+        "the car brakes to a stop, then the truck",
+        "the car brakes to a stop. Then the truck",
+        "the truck drives on at 12 m/s and the car at 10 m/s",
+        "the car passes the conflict point at least 2 s before the ego, at 12 m/s",
+        "the car brakes to a stop 8 m before the conflict point, and the truck is then 20 m before the conflict point",
+        "the car wants to brake to a stop but speeds up to 12 m/s",
+        "the car should brake to a stop, but it drives on",
+        "the car brakes to a stop until the ego stands, then drives on",
+        "the car brakes to a stop before the ego's turn",
+        "the car drives at 5 m/s to 10 m before the conflict point",
+    ],
+)
+def test_whom_or_what_a_text_leaves_half_said_is_not_dropped(said: str) -> None:
+    assert reading_of(f"{AT_LINE}{said}.").kind == "refused"
+
+
+@pytest.mark.parametrize("when", ["the ego exits the driveway", "the ego leaves the driveway at 5 m/s"])
+def test_a_way_is_no_moment(when: str) -> None:
+    assert (
+        reading_of(f"{WEST_EAST}When {when} and the car is 30 m before the stop line, the car brakes.").kind
+        == "refused"
+    )
+
+
+def test_as_many_amounts_as_places_go_together_in_their_order() -> None:
+    for said in ("distance to the hero is 20 m and to the intersection 15 m",
+                 "distance to the hero is 20 m, 15 m before the intersection"):  # fmt: skip
+        found = formulas(reading_of(f"{LEAD}When the ego's {said}, the hero brakes to a stop."))
+        assert {"gap(A0, A1, t1) == 20", "A0x(t1) == intersection - 15"} <= found
+
+
+ONE_BEHIND = {
+    "The hero brakes to 5 m/s at a headway of 2 s.": "headway(A0, A1, t1) == 2",
+    "The hero is braked to a standstill at a TTC of 2.5 s.": "ttc(A0, A1, t1) == 2.5",
+    "When the hero is 30 m before the turn with the ego 20 m behind it, it brakes.": "gap(A0, A1, t1) == 20",
+    "When the ego is 30 m before the turn with the hero 20 m ahead of it, the hero brakes.": "gap(A0, A1, t1) == 20",
+}
+
+
+@pytest.mark.parametrize(("said", "formula"), ONE_BEHIND.items())
+def test_who_drives_behind_is_known_whoever_acts(said: str, formula: str) -> None:
+    assert formula in formulas(reading_of(LEAD + said))
+
+
+@pytest.mark.parametrize(
+    ("said", "told"),
+    [
+        ("drives on to 5 m past the conflict point", "drive on until it is 5 m past the conflict point."),
+        ("drives on up to 5 m before the conflict point", "drive on until it is 5 m before the conflict point."),
+        ("continues past the conflict point", "drive on until it is past the conflict point."),
+        ("brakes to 4 m/s 5 m before the conflict point", "brake until it is 5 m before the conflict point and it dr"),
+    ],
+)
+def test_where_a_deed_ends_is_no_place_where_it_begins(said: str, told: str) -> None:
+    assert told in told_in(f"{AT_LINE}the car {said}.")
+
+
+def test_what_two_do_before_or_until_something_is_held_of_both() -> None:
+    told = told_in(f"{AT_LINE}the car and the truck brake to a stop 2 s before the ego begins to turn.")
+    assert "The ego begins to turn 2 s after the car finishes braking." in told
+    assert "The ego begins to turn 2 s after the truck finishes braking." in told
+    told = told_in(f"{AT_LINE}the car and the truck brake until the ego begins to turn.")
+    assert told.count("until the ego begins to turn.") == 2
+
+
+def test_what_is_asked_of_a_deed_in_a_list_is_asked_as_in_a_sentence() -> None:
+    told = told_in(f"{AT_LINE}the car brakes to a stop and 2 s later the truck brakes to a stop.")
+    assert "When is this" in told
+    between = told_in(f"{AT_LINE}the car brakes 30 m before the conflict point to a stop.")
+    assert "What is '30 m'?" in between

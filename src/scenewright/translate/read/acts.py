@@ -99,6 +99,30 @@ def lasting(clause: Clause) -> None:
         clause.deed = st.Verb.DRIVE
 
 
+def shares_of(story: Narrative, clause: Clause) -> tuple[list[st.Measure], list[st.Measure], list[st.Measure]]:
+    """Return what a deed's own clause says of its beginning, of the deed throughout, and of its end."""
+    rests = clause.deed == "stop" or "standstill" in clause.flags
+    begins, held, ends = [*clause.begins], list[st.Measure](), [st.standstill(clause.subject or EGO)] * rests
+    for measure in clause.measures:
+        fast = measure.quantity is st.Quantity.SPEED
+        if rests and measure.quantity is st.Quantity.ARRIVAL:
+            story.refuse("who stands has no time to arrival", clause.quote, "say where it stands, in metres")
+        if fast and "to" not in clause.flags and clause.deed != st.Verb.DRIVE:
+            story.refuse("it is not clear when it is so fast")
+        ends_there = rests or bool(clause.flags & {"to", "to there"}) or st.is_event(measure)
+        ends_there |= clause.deed == st.Verb.DRIVE and (measure.opposite or measure.op == ">")  # "continues past it"
+        timed = measure.quantity in (st.Quantity.HEADWAY, st.Quantity.COLLISION)  # so nobody stands
+        stays = clause.deed == st.Verb.STAND or timed or not (ends_there or fast)
+        text, at = story.text, measure.quote or clause.quote
+        aside = text[: at.start].rstrip().endswith(",") and "," in text[at.end : clause.quote.end]
+        apart = measure.quantity in (st.Quantity.GAP, st.Quantity.FREE_SPACE) and "apart" in clause.notes
+        if rests and (aside or apart or "between" in clause.notes):
+            here = ["where it begins to brake", "where it stands"]  # "brakes, 8 m before it, to standstill"
+            stays = story.ask(f"where {at.start}", f"What is '{at.text}'?", here, None, at) == here[0]
+        (held if fast and "to" not in clause.flags else begins if stays else ends).append(measure)
+    return begins, held, ends
+
+
 def is_beside(measure: st.Measure) -> bool:
     """Whether it is of where somebody is beside another, and so no way of driving."""
     return measure.other is not None and measure.quantity is not st.Quantity.SPEED

@@ -6,8 +6,9 @@ be made of. An amount belongs to the nearest place or actor after it, else befor
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import partial
 
 from scenewright.errors import UnknownWordsError
 from scenewright.program.types import EGO
@@ -18,6 +19,7 @@ from scenewright.translate.read.chunks import Chunk
 from scenewright.translate.read.clauses import BETWEEN_TWO, IT, PEOPLE, Clause, Taken, Target
 
 _BARE = {side: op for op, side in SIDES.items()} | {"to": "==", "behind": "<"}  # a side and a place, without an amount
+_VERBS = ("be", "state", "event", "deed", "phase", "turn", "mood", "kept", "order", "quantity", "possessive")
 _TO_PLACE = ("before", "behind", "from", "to", "ahead", "of")
 _CONTRARY = ((st.Verb.BRAKE, "acceleration"), ("stop", "acceleration"), (st.Verb.SPEED_UP, "deceleration"))
 
@@ -29,6 +31,8 @@ def read_clause(chunks: Sequence[Chunk], people: Cast, subject: int | None = Non
         taken.take(taken.chunks[taken.at])
         taken.at += 1
     _attach(taken)
+    taken.clause.notes |= {"said"} if any(chunk.kind in _VERBS for chunk in chunks) else set()
+    taken.clause.notes |= {"apart"} if taken.quantities.get("length") else set()
     return taken.clause
 
 
@@ -51,13 +55,14 @@ def _attach(taken: Taken) -> None:
         taken.measure(last, st.standstill(IT))
     for name in sorted(taken.states & {"turn_start", "turn_end"}):
         taken.measure(last, st.Measure(IT, st.Quantity.PLACE, "==", None, st.Place(name)))
+    pairs = _in_pairs(taken)
     for at, op, chunk in taken.amounts:
-        _give(taken, at, op, chunk)
+        _placed(taken, at, partial(_give, taken, at, op, chunk, pairs.get(at)))
     if taken.beyond:
         raise taken.left_over(next(iter(taken.beyond.values())))
     for target in taken.targets:
         if not target.used:
-            _stand_alone(taken, target)
+            _placed(taken, target.at, partial(_stand_alone, taken, target))
     places = [each for each in clause.measures if each.quantity is st.Quantity.PLACE]
     passes_nothing = "pass" in taken.states and all(each.amount is not None for each in places)
     fast = "speed" in taken.quantities or any(each.quantity is st.Quantity.SPEED for each in clause.measures)
@@ -86,6 +91,31 @@ def _attach(taken: Taken) -> None:
     sense = {st.Verb.BRAKE: -1, "stop": -1, st.Verb.SPEED_UP: 1}.get(clause.deed or "", 0)
     if begin and end and begin[0] is not None and end[0] is not None and sense * (end[0] - begin[0]) < 0:
         raise taken.left_over(last)  # nobody brakes from 5 m/s to 10 m/s
+
+
+def _in_pairs(taken: Taken) -> dict[int, Target]:
+    """Return what each amount is counted to where there are as many of both: in their order."""
+    counted = [
+        at
+        for at, _, chunk in taken.amounts
+        if at not in taken.ranges and chunk.amount is not None and chunk.amount.dimension in ("length", "time")
+    ]
+    free = [target for target in taken.targets if not target.used]
+    return dict(zip(counted, free, strict=True)) if len(counted) == len(free) > 1 else {}
+
+
+def _placed(taken: Taken, at: int, make: Callable[[], None]) -> None:
+    """Make measures of what stands at `at`: in front of a deed it is so when that begins."""
+    clause, known = taken.clause, len(taken.clause.measures)
+    make()
+    if clause.deed is None or at < 0:
+        return
+    made = [each for each in clause.measures[known:] if each.quantity is not st.Quantity.SPEED]
+    if taken.chunks[at : taken.deed_at] and made:  # "the car that is 30 m before it brakes to a stop"
+        clause.measures = [each for each in clause.measures if each not in made]
+        clause.begins += made
+    elif taken.deed_at < at < taken.stands_at and made:
+        clause.notes.add("between")  # "brakes 30 m before it to a stop"
 
 
 def _find_subject(taken: Taken) -> None:
@@ -137,6 +167,8 @@ def _stand_alone(taken: Taken, target: Target) -> None:
             fix = "say who passes first, or that it 'turns left across the path of the ego'"
             raise UnknownWordsError("it is not clear whether it goes first", found=clause.quote.text, fix=fix)
         clause.relations.append(st.Relation(target.side, target.other, target.chunk.quote))
+    elif clause.deed and target.place is not None and target.place.name == "turn" and target.place.of is not None:
+        raise taken.left_over(target.chunk)  # "brakes before the ego's turn": that is a time
     elif target.side == "at" and target.at < taken.subject_at and not taken.states & {"pass", "reach"}:
         raise taken.left_over(target.chunk)  # "at the junction, the ego ...": it is what follows that is there
     elif target.place is not None and target.side in _BARE:
@@ -145,8 +177,8 @@ def _stand_alone(taken: Taken, target: Target) -> None:
         raise taken.left_over(target.chunk)
 
 
-def _give(taken: Taken, at: int, op: st.Operator, chunk: Chunk) -> None:
-    """Make a measure of an amount, with the nearest free target after it, else before it."""
+def _give(taken: Taken, at: int, op: st.Operator, chunk: Chunk, paired: Target | None) -> None:
+    """Make a measure of an amount, with its own target, the nearest free one after it, else before it."""
     amount, clause = chunk.amount, taken.clause
     assert amount is not None
     named = taken.quantities.get(amount.dimension)
@@ -168,7 +200,7 @@ def _give(taken: Taken, at: int, op: st.Operator, chunk: Chunk) -> None:
             clause.rates.append(clause.measures.pop())
         return
     free = [target for target in taken.targets if not target.used]
-    target = next((each for each in free if each.at > at), free[-1] if free else None)
+    target = paired or next((each for each in free if each.at > at), free[-1] if free else None)
     if at in taken.ranges:
         target = next((each for each in taken.targets if each.at > at), None) or taken.last
     if target is None and amount.dimension == "length" and clause.deed is not None:
@@ -197,7 +229,7 @@ def _give(taken: Taken, at: int, op: st.Operator, chunk: Chunk) -> None:
     if target.other is None or not fits or asked not in BETWEEN_TWO:
         raise taken.left_over(target.chunk)
     behind = side == "ahead"  # it is the other one that is behind
-    if asked == "gap" and side in ("to", "with"):
+    if side in ("to", "with") and (asked == "gap" or clause.deed is not None):  # "brakes at a headway of 2 s"
         behind = taken.people.rear(clause.subject or EGO, target.other, chunk.quote) == target.other
     elif asked == "bumper-to-bumper gap" and side in (
         "to",

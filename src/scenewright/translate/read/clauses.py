@@ -47,9 +47,9 @@ class Clause:
 
     Amounts are gathered in lists, so that none takes the place of another; `agree` refuses those that do not fit.
 
-    `flags` are: ``standstill``, ``while`` (the end is open), ``to`` a speed, ``first``, ``start``, ``kept`` (its
-    speed), ``way`` (it is open), ``falls`` (an amount that is reached), ``yields``, ``insists``, ``no stop``,
-    ``no brake``.
+    `flags` are: ``standstill``, ``while`` (the end is open), ``to`` a speed, ``to there`` a place, ``first``,
+    ``start``, ``kept`` (its speed), ``way`` (it is open), ``falls`` (an amount that is reached), ``yields``,
+    ``insists``, ``no stop``, ``no brake``.
     """
 
     quote: st.Quote
@@ -145,6 +145,8 @@ class Taken:
     states: set[str] = field(default_factory=set)
     quantities: dict[Dimension, str] = field(default_factory=dict)  # that are named, by what they are amounts of
     subject_at: int = 0
+    deed_at: int = -1
+    stands_at: int = -1  # where it is said that it comes to a standstill
     pair: tuple[int, int] | None = None  # between whom a gap is
 
     def __post_init__(self) -> None:
@@ -192,7 +194,7 @@ class Taken:
             case "area" if value == "driveway" and (reaches or (clause.subject is None and self.peek(2)[1] == "ahead")):
                 self.targets.append(Target(self.at, "at", chunk, _CONFLICT))
             case "deed" if clause.deed is None:
-                clause.deed = value
+                clause.deed, self.deed_at = value, self.at
             case "phase" if clause.phase is None:
                 clause.phase = value
             case "ordinal" if all(each.kind != "ordinal" for each in self.chunks[: self.at]):
@@ -201,6 +203,7 @@ class Taken:
                 raise self.left_over(self.chunks[self.at + 1])  # "without stopping at the junction": it is there or not
             case "standstill" | "open" | "kept" | "order" | "yields" | "insists" | "refrains":
                 clause.flags.add(value)
+                self.stands_at = self.at if chunk.kind == "standstill" else self.stands_at
             case "link" if value == "start":
                 clause.flags.add("start")
             case "relation" if value in ("ahead", "behind") and self.peek(-1)[0] == "amount":
@@ -246,6 +249,10 @@ class Taken:
         amount = self.chunks[self.at]
         if value == "falls":
             self.clause.flags.add("falls")
+        far = amount.amount is not None and amount.amount.dimension == "length"
+        if far and self.clause.deed is not None and self.chunks[self.at - 1].text.lower() == "up to":
+            self.clause.flags.add("to there")  # "drives on up to 5 m before it"
+            return "=="
         if value == "about":
             told = f"{self.chunks[self.at - 1].text} {amount.text}"
             exact: dict[str, st.Operator] = {f"exactly {amount.text}": "==", f"at most {amount.text}": "<=",
@@ -304,11 +311,16 @@ class Taken:
                 raise self.left_over(chunk)
             self.clause.begins.append(st.Measure(IT, st.Quantity.SPEED, "==", amount, quote=chunk.quote))
         elif side == "to" and (kind in ("amount", "bound") or value == "speed") and self.clause.deed is not None:
-            self.clause.flags.add("to")
-        elif side == "to" and kind == "amount" and self.clause.phase is None and not self.amounts:
-            raise self.left_over(chunk)  # "but only to 10 m/s"
+            self.clause.flags.add("to there" if self._is_far() else "to")
+        elif side == "to" and kind == "amount" and self.clause.phase is None and (not self.amounts or self._is_far()):
+            raise self.left_over(chunk)  # "but only to 10 m/s", "drives at 5 m/s to 10 m before it"
         elif not (self.road(side) or kind in _AFTER.get(side, ()) or (side, kind, value) in _INITIAL):
             raise self.left_over(chunk)
+
+    def _is_far(self) -> bool:
+        """Whether the next amount is one of a place: how far, or how long, from there."""
+        amounts = (each.amount for each in self.chunks[self.at + 1 : self.at + 3] if each.amount is not None)
+        return next((each.dimension in ("length", "time") for each in amounts), False)
 
     def _between(self, chunk: Chunk) -> None:
         """Take "between them", "between the ego and the hero", "of the ego and the hero", or "of the ego" alone."""

@@ -163,18 +163,44 @@ def parted(chunks: list[Chunk]) -> tuple[list[Chunk], list[Chunk]]:
         return chunks[:begins], chunks[begins:]
     if not commas:
         raise UnknownWordsError("it is not clear where the moment ends", fix="put a comma before what happens")
-    acts = (start for start, end in zip(commas, [*commas[1:], len(chunks)], strict=True)
-            if any(chunk.kind in _ACTS for chunk in chunks[start:end]))  # fmt: skip
-    cut = next(acts, commas[-1])
+    parts = [chunks[start + 1 : end] for start, end in zip(commas, [*commas[1:], len(chunks)], strict=True)]
+    cut = commas[_who_acts(parts)]
     main = chunks[cut + 1 :]
     return chunks[:cut], main[1:] if main and main[0].value == "then" else main
+
+
+def wishes_otherwise(chunks: Sequence[Chunk]) -> bool:
+    """Whether something is meant to be done, but something else is done: "wants to brake but speeds up"."""
+    but = next((at for at, chunk in enumerate(chunks) if chunk.kind == "joint" and chunk.text.lower() == "but"), 0)
+    meant = any(chunk.kind == "mood" for chunk in chunks[:but])
+    return meant and all(any(chunk.kind == "deed" for chunk in part) for part in (chunks[:but], chunks[but:]))
+
+
+def _who_acts(parts: Sequence[Sequence[Chunk]]) -> int:
+    """Return which of the parts between commas begins what happens: it begins with who does it, if anybody is named."""
+    acts = [number for number, part in enumerate(parts) if any(chunk.kind in _ACTS for chunk in part)]
+    names = [number for number, part in enumerate(parts) if _is_named(part)]
+    for number in acts[:1]:
+        before = takewhile(lambda each: each.kind not in _ACTS, parts[number])
+        if any(each.kind in PEOPLE for each in before):
+            break
+        earlier = [each for each in names if each < number]  # "the car, 30 m before the conflict point, brakes"
+        later = [each for each in names if each > number and each in acts]  # "when the car, ..., brakes, the truck ..."
+        return [*earlier[-1:], *later, number][0]
+    return next(iter(acts), len(parts) - 1)
+
+
+def _is_named(part: Sequence[Chunk]) -> bool:
+    """Whether a part begins with somebody."""
+    opens = next((each for each in part if each.value not in ("and", "then")), None)
+    return opens is not None and opens.kind in PEOPLE
 
 
 def during_of(chunks: list[Chunk]) -> tuple[list[Chunk], list[Chunk]]:
     """Part what is done from what is so while it is: "brakes to 5 m/s while the ego drives at 10 m/s or more"."""
     for at, chunk in enumerate(chunks):
         during = chunks[at + 1 :]
-        acts = tuple(any(each.kind in (*_ACTS, "kept") for each in part) for part in (chunks[:at], during))
+        acts = any(each.kind in _ACTS for each in chunks[:at]), any(each.kind in (*_ACTS, "kept") for each in during)
         if chunk.kind == "joint" and chunk.text.lower() == "while" and acts == (True, False):
             return chunks[:at], during
     return chunks, []
@@ -185,7 +211,7 @@ def items_of(people: Cast, chunks: Sequence[Chunk], subject: int | None = None) 
     parser = _Items(people, list(chunks), subject)
     found: list[Clause] = []
     while parser.at < len(parser.chunks):
-        if parser.chunks[parser.at].kind == "comma" or parser.is_joint("and"):
+        if parser.chunks[parser.at].kind == "comma" or parser.is_joint("and") or parser.is_beside():
             parser.at += 1
         elif (lead := next((each for each in ("then", "same time") if parser.is_joint(each)), None)) is not None:
             parser.led.add(lead)
@@ -197,6 +223,9 @@ def items_of(people: Cast, chunks: Sequence[Chunk], subject: int | None = None) 
             parser.others = []
     for item, following in pairwise(found):  # "the ego, a bus and a van drive west"
         if item.subject != following.subject and not item.says_more_than():
+            people.refuse("nothing is said here", item.quote, "say it of each")
+    for item in found[1:][-1:]:  # "the car brakes, as does the truck"
+        if item.subject not in (None, *(each.subject for each in found[:-1])) and not item.says_more_than():
             people.refuse("nothing is said here", item.quote, "say it of each")
     return found
 
@@ -265,7 +294,7 @@ class _Items:
             before = [each.value for each in self.chunks[max(self.at - 3, start) : self.at - 1]]
             between = before[-1:] == ["between"] or (before[-1:] == ["of"] and before[0] in BETWEEN_TWO)
             between &= self.chunks[self.at - 1].kind in PEOPLE
-            closes = any(self.is_joint(link) for link in inside)
+            closes = any(self.is_joint(link) for link in inside) or self.is_beside()
             fronted = self._is_fronted(start)
             if self.at > start and (closes or (parts and not (between or fronted) and self._begins(self.at + 1))):
                 break
@@ -280,7 +309,8 @@ class _Items:
         for each in self.both[:-1]:
             self.others.append(self._read([each, *own]))
         self.before = self._read([*self.both[-1:], *own])
-        self.before.notes |= {"both"} if self.both else set()
+        for clause in (*self.others, self.before):
+            clause.notes |= {"both"} if self.both else set()
         if any(each.subject == self.before.subject for each in self.others):
             self.people.refuse("one and the same is named twice", self.before.quote)
         return self.before
@@ -304,6 +334,13 @@ class _Items:
             if clause.facts.setdefault("destination_heading", heading) != heading:
                 self.people.refuse("two headings are told", clause.quote)
         return clause
+
+    def is_beside(self) -> bool:
+        """Whether it is said here how somebody else is: "with the ego 20 m behind it"."""
+        opens, *following = self.chunks[self.at : self.at + 4]
+        far = [each.kind for each in following] in ([who, "amount", "side"] for who in PEOPLE)
+        length = far and following[1].amount is not None and following[1].amount.dimension == "length"
+        return length and (opens.kind, opens.value) == ("side", "with")
 
     def _is_fronted(self, start: int) -> bool:
         """Whether what stands before this comma is of whom is named after it: "Behind it, the ego drives"."""

@@ -39,7 +39,10 @@ def leads_of(story: Narrative, chunks: Sequence[Chunk], words: Set[str] = frozen
     joined = any(chunk.value == "if" for chunk in chunks)  # its "then" is another
     for chunk, following in zip_longest(chunks, chunks[1:]):
         kept = found.chunks
-        free = not kept or (not joined and kept[-1].kind in ("be", "mood", *PEOPLE) and chunk.value != "start")
+        one = not joined and all(
+            each.kind not in ("comma", "joint", "deed") for each in kept
+        )  # it is of the first clause
+        free = not kept or (one and kept[-1].kind in ("be", "mood", *PEOPLE) and chunk.value != "start")
         word, _, own = chunk.value.partition("then ")
         # "After braking to 5 m/s" says more than that it did.
         whole = own in ("", *_TURNS) or (following is not None and following.kind in ("comma", *PEOPLE))
@@ -197,6 +200,8 @@ def all_the_while(story: Narrative, when: list[Clause]) -> list[st.Condition]:
             story.assumptions.append(f"'{clause.quote.text}' is from when that begins")
         moving += [each for each in clause.conditions if not isinstance(each, st.Measure) or each.op != "=="
                    or each == st.standstill(each.actor)]  # fmt: skip
+    if any(clause.is_event for clause in when):
+        story.refuse("it is not clear how long this is so", fix="say from when until when, or 'When ...'")
     ways = ["all the while", "when it begins"]
     asked = f"How long is this so: {story.quote.text}"
     keeps = moving and story.ask(f"while {story.quote.start}", asked, ways, 0, story.quote) == ways[0]

@@ -186,6 +186,9 @@ class Narrative(Cast):
         """Return what a list says is so; `taken` are attributes of its clauses that something else takes."""
         for item in items:
             wish = item.notes & {"wanted", "relative"}
+            fast = all(each.quantity is st.Quantity.SPEED for each in item.measures)
+            if item.facts and fast and not (wish or item.joined or item.flags):  # "when the ego leaves the driveway"
+                self.refuse("this is no condition", item.quote, "say where it is then, or what it passes")
             if wish or (item.facts.get("turn", "straight") == "straight" and not item.relations):
                 self.tell(item)
             if item.says_more_than("measures", "joined", *taken):

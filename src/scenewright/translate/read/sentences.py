@@ -15,10 +15,19 @@ from scenewright.errors import Place as Where
 from scenewright.errors import Span, TranslationError
 from scenewright.program.types import EGO
 from scenewright.translate import story as st
-from scenewright.translate.read.acts import acts_of, is_beside, lasting, unknown_to_programs
+from scenewright.translate.read.acts import acts_of, is_beside, lasting, shares_of, unknown_to_programs
 from scenewright.translate.read.chunks import Chunk, sentences
 from scenewright.translate.read.clauses import PEOPLE, Clause, agree, is_upper
-from scenewright.translate.read.items import ORDERS, Segment, during_of, items_of, parted, parts_of, segments_of
+from scenewright.translate.read.items import (
+    ORDERS,
+    Segment,
+    during_of,
+    items_of,
+    parted,
+    parts_of,
+    segments_of,
+    wishes_otherwise,
+)
 from scenewright.translate.read.leads import (
     Leads,
     all_the_while,
@@ -118,6 +127,8 @@ class _Sentence:
             self.lasting = all_the_while(story, when) if is_while else []
         if rest and rest[0].is_first:  # "after it has stopped, the truck ..."
             rest[0].chunks = story.settled(rest[0].chunks, main.chunks)
+        if wishes_otherwise(main.chunks):
+            story.refuse("it is not clear what is done, and what is only meant to be")
         main.chunks, during = during_of(main.chunks)
         items = items_of(story, main.chunks, story.subject)
         if during:
@@ -145,7 +156,7 @@ class _Sentence:
         is_led = bool(self.led.words & {"then", "at once", "same time"})
         items = acts_of(story, items, (is_led or when is not None or self.pending is not None) and not timed)
         if not items and when is None:
-            if rest or does:
+            if rest or does or (is_led and story.named):
                 story.refuse("it is not said what is done")
             return
         acts = next((at for at, each in enumerate(items) if each.deed), 0)
@@ -167,13 +178,15 @@ class _Sentence:
         known = first.phase and story.doing_of(first) is not None and when is None and not self.led.words
         if first.deed and len(items) > 1:  # "it brakes to a stop, waits for 3 s and drives on"
             for item, following in zip_longest(items, items[1:]):
-                self._main([item], when, [] if following else rest)
+                self._main([item], when, [] if following and "both" not in item.notes else rest)
                 if following is None:
                     continue
                 if "same time" in following.notes and following.subject == item.subject:
                     story.refuse("two deeds at one time are told of one")
                 follows = following.subject == item.subject and item.deed is not None
-                if follows or "then" in following.notes:
+                if not following.deed and following.measures and "said" not in following.notes:
+                    story.refuse("it is not said what is done", following.quote)  # "... and the car at 6 m/s"
+                if follows or "then" in following.notes or "later" in following.times:
                     self.led.words, when, self.pending = {"then"}, None, None
                 elif when is None and following.subject != item.subject:  # "then one brakes and another speeds up"
                     self.led.words = {"same time"}
@@ -299,7 +312,7 @@ class _Sentence:
             story.tell_way(clause.subject, {"turn": turned})
         story.awaits = None if when is None and self.pending is not None else story.awaits
         again = None if when is not None or self.pending is not None or self.led.words else told_before(story, clause)
-        begins, held, ends = self._shares(clause)
+        begins, held, ends = shares_of(story, clause)
         is_tied = bool(begins) or any(each.link in ORDERS for each in rest)
         moment: int | None
         pending = self.pending if when is None else self._moment(when)
@@ -392,27 +405,10 @@ class _Sentence:
     def _at(self, actor: int, place: str) -> st.Measure:
         return st.Measure(actor, st.Quantity.PLACE, "==", None, st.Place(place), quote=self.story.quote)
 
-    def _shares(self, clause: Clause) -> tuple[list[st.Measure], list[st.Measure], list[st.Measure]]:
-        """Return what a deed's own clause says of its beginning, of the deed throughout, and of its end."""
-        rests = clause.deed == "stop" or "standstill" in clause.flags
-        begins, held, ends = [*clause.begins], list[st.Measure](), [st.standstill(clause.subject or EGO)] * rests
-        for measure in clause.measures:
-            fast = measure.quantity is st.Quantity.SPEED
-            if rests and measure.quantity is st.Quantity.ARRIVAL:
-                self.story.refuse("who stands has no time to arrival", clause.quote, "say where it stands, in metres")
-            if fast and "to" not in clause.flags and clause.deed != st.Verb.DRIVE:
-                self.story.refuse("it is not clear when it is so fast")
-            stays = clause.deed == st.Verb.STAND or not (rests or fast or st.is_event(measure))
-            text, at = self.story.text, measure.quote or clause.quote
-            if rests and text[: at.start].rstrip().endswith(",") and "," in text[at.end : clause.quote.end]:
-                here = ["where it begins to brake", "where it stands"]  # "brakes, 8 m before it, to standstill"
-                stays = self.story.ask(f"where {at.start}", f"What is '{at.text}'?", here, None, at) == here[0]
-            (held if fast and "to" not in clause.flags else begins if stays else ends).append(measure)
-        return begins, held, ends
-
     def _end(self, doing: Doing, clause: Clause, ends: Sequence[st.Condition], until: Segment | None) -> None:
         story, told = self.story, [*ends, *doing.reached]
-        if until is not None and doing.ends is not None:
+        foreign = until is not None and bool(ends) and bool(until.chunks) and until.chunks[0].kind in ("actor", "name")
+        if until is not None and (doing.ends is not None or (foreign and not until.side)):
             story.refuse("two ends of one deed are told", clause.quote)
         if until is not None and until.side:  # "until 1 s after the ego passes it"
             doing.ends = story.new_moment(ends)
@@ -435,6 +431,8 @@ class _Sentence:
     def _event_of(self, chunks: list[Chunk]) -> int:
         """Return the moment of the one event that chunks tell."""
         items = items_of(self.story, chunks)
+        if any("said" not in each.notes for each in items):  # "before the ego, at 12 m/s"
+            self.story.refuse("it is not clear of whom this is", st.Quote(chunks[0].start, chunks[-1].end, ""))
         more = [each for item in items for each in item.measures if not st.is_event(each) and each.op == "=="]
         comes = [each for item in items for each in item.measures if st.is_event(each)]
         speeds = [each for each in more if each != st.standstill(each.actor)]
