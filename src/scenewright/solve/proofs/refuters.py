@@ -23,7 +23,7 @@ _OURS = {
     "scip": "scenewright.solve.proofs.scip_engine:Scip [scip]",
 }
 SOLVERS: Kind[Refuter] = Kind(GROUP, _OURS, "solver", "refutes", SolverError, {"cvc5": "cvc5", "scip": "pyscipopt"})
-_CORE_S, _SHRINK_S = 2.0, 0.5  # for looking for what clashes in all, and for each question whether fewer do
+_CORE_S, _SHRINK_S = 1.0, 0.15  # for looking for what clashes in all, and for each question whether fewer do
 
 Found = Literal["refuted", "met", "timeout", "unknown"]
 

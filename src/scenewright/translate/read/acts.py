@@ -45,6 +45,8 @@ def acts_of(story: Narrative, items: list[Clause], happens: bool) -> list[Clause
         if is_hero and turns and not meant:
             story.tell_way(item.subject or EGO, item.facts, turns_then=True)
             item.facts, item.deed = {}, "turn"
+        elif is_hero and _passes_at_a_speed(item):
+            item.flags, item.deed = item.flags | {"to"}, st.Verb.DRIVE
         elif is_hero and "first" in item.flags and not item.says_more_than("flags"):
             item.flags, item.deed = item.flags - {"first"}, "go first"
         elif "kept" in item.flags and (is_hero or goes_on) and not item.says_more_than("flags", "times", "measures"):
@@ -90,6 +92,12 @@ def acts_of(story: Narrative, items: list[Clause], happens: bool) -> list[Clause
     return found
 
 
+def _passes_at_a_speed(clause: Clause) -> bool:
+    """Whether somebody comes to a place at a speed: "passes the conflict point at 12 m/s"."""
+    kinds = {st.is_event(each) or each.quantity for each in clause.measures}
+    return kinds == {True, st.Quantity.SPEED} and "event" in clause.notes and not clause.says_more_than("measures")
+
+
 def lasting(clause: Clause) -> None:
     """Let what lasts until something be a deed: "it stands until ...", "it drives at 8 m/s until ..."."""
     stands = st.standstill(clause.subject or EGO)
@@ -110,8 +118,12 @@ def shares_of(story: Narrative, clause: Clause) -> tuple[list[st.Measure], list[
         if fast and "to" not in clause.flags and clause.deed != st.Verb.DRIVE:
             story.refuse("it is not clear when it is so fast")
         ends_there = rests or bool(clause.flags & {"to", "to there"}) or st.is_event(measure)
-        ends_there |= clause.deed == st.Verb.DRIVE and (measure.opposite or measure.op == ">")  # "continues past it"
+        if clause.phase == "begins" and not rests and measure.quantity is st.Quantity.PLACE:
+            ends_there = st.is_event(measure)  # "begins to brake to 4 m/s 30 m before it"
+        onwards = clause.deed in (st.Verb.DRIVE, st.Verb.SPEED_UP)
+        ends_there |= onwards and (measure.opposite or measure.op == ">")  # "continues past it"
         timed = measure.quantity in (st.Quantity.HEADWAY, st.Quantity.COLLISION)  # so nobody stands
+        timed &= "to there" not in clause.flags
         stays = clause.deed == st.Verb.STAND or timed or not (ends_there or fast)
         text, at = story.text, measure.quote or clause.quote
         aside = text[: at.start].rstrip().endswith(",") and "," in text[at.end : clause.quote.end]

@@ -19,7 +19,7 @@ from scenewright.translate.read.chunks import Chunk
 from scenewright.translate.read.clauses import BETWEEN_TWO, IT, PEOPLE, Clause, Taken, Target
 
 _BARE = {side: op for op, side in SIDES.items()} | {"to": "==", "behind": "<"}  # a side and a place, without an amount
-_VERBS = ("be", "state", "event", "deed", "phase", "turn", "mood", "kept", "order", "quantity", "possessive")
+_VERBS = ("be", "state", "event", "deed", "phase", "turn", "kept", "order", "quantity", "possessive")
 _TO_PLACE = ("before", "behind", "from", "to", "ahead", "of")
 _CONTRARY = ((st.Verb.BRAKE, "acceleration"), ("stop", "acceleration"), (st.Verb.SPEED_UP, "deceleration"))
 
@@ -115,7 +115,11 @@ def _placed(taken: Taken, at: int, make: Callable[[], None]) -> None:
         clause.measures = [each for each in clause.measures if each not in made]
         clause.begins += made
     elif taken.deed_at < at < taken.stands_at and made:
-        clause.notes.add("between")  # "brakes 30 m before it to a stop"
+        if clause.deed == "stop" or "standstill" in clause.flags:
+            clause.notes.add("between")  # "brakes 30 m before it to a stop"
+        else:  # "brakes 30 m before it to 4 m/s"
+            clause.measures = [each for each in clause.measures if each not in made]
+            clause.begins += made
 
 
 def _find_subject(taken: Taken) -> None:
@@ -130,6 +134,8 @@ def _find_subject(taken: Taken) -> None:
         others = [each.other for each in taken.targets if each.side in ("to", "with") and each.other is not None]
         if clause.subject is not None and not taken.targets:  # "the ego's headway is 2 s"
             other = taken.people.whom(clause.quote, clause.subject)
+            if clause.deed is None and taken.people.told_rear(clause.subject, other) == other:  # it leads
+                clause.subject, other = other, clause.subject
             taken.targets.append(Target(0, "to", taken.chunks[-1], other=other))
         elif clause.subject is None and not taken.targets:
             taken.pair = taken.people.pair(taken.chunks[0])  # "when the gap is 20 m"
@@ -169,6 +175,8 @@ def _stand_alone(taken: Taken, target: Target) -> None:
         clause.relations.append(st.Relation(target.side, target.other, target.chunk.quote))
     elif clause.deed and target.place is not None and target.place.name == "turn" and target.place.of is not None:
         raise taken.left_over(target.chunk)  # "brakes before the ego's turn": that is a time
+    elif target.side == "at" and not acts and any(each.quantity is st.Quantity.PLACE for each in clause.measures):
+        raise taken.left_over(target.chunk)  # "12 m before the stop line at the conflict point"
     elif target.side == "at" and target.at < taken.subject_at and not taken.states & {"pass", "reach"}:
         raise taken.left_over(target.chunk)  # "at the junction, the ego ...": it is what follows that is there
     elif target.place is not None and target.side in _BARE:

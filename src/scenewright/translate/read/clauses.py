@@ -6,6 +6,7 @@ or an `UnknownWordsError` with the words that nothing could be made of. Order de
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field, fields, replace
 
@@ -37,6 +38,11 @@ _DIMENSIONS: dict[str, Dimension] = {
     "time to collision": "time", "time to arrival": "time",
     "rate": "acceleration", "acceleration": "acceleration", "deceleration": "acceleration",
 }  # fmt: skip
+_PARTICIPLE = {  # behind "is" and "has"
+    "is": re.compile("braking|decelerating|slowing|accelerating|speeding"),
+    "has": re.compile(r"\w+ed$|been|stood|driven|gone|begun|come"),
+}
+_BETWEEN = ("speed", "gap", "bumper-to-bumper gap", "headway", "time to collision")
 BETWEEN_TWO = ("gap", "bumper-to-bumper gap", "headway", "time to collision")
 _INITIAL = (("at", "link", "start"), ("with", "link", "start"))  # "with an initial speed of"
 
@@ -146,7 +152,7 @@ class Taken:
     quantities: dict[Dimension, str] = field(default_factory=dict)  # that are named, by what they are amounts of
     subject_at: int = 0
     deed_at: int = -1
-    stands_at: int = -1  # where it is said that it comes to a standstill
+    stands_at: int = -1  # where it is said to what it does it: to a standstill, to a speed, to a place
     pair: tuple[int, int] | None = None  # between whom a gap is
 
     def __post_init__(self) -> None:
@@ -176,6 +182,8 @@ class Taken:
                 raise self.left_over(chunk)
             case "be" | "possessive" | "quality":
                 clause.notes |= {value} & {"has", "stays"}
+                if chunk.kind == "be" and (lasts := _PARTICIPLE.get(value)) and lasts.match(self._word(1)):
+                    clause.notes.add("at it")  # "has braked", "is braking": it began before
             case "mood":
                 clause.notes.add(value)
             case "amount" | "no unit":
@@ -210,6 +218,8 @@ class Taken:
                 self.targets.append(Target(self.at, value, chunk))
             case "relation":
                 clause.relations.append(st.Relation(value, EGO, chunk.quote))
+            case "state" if chunk.text.lower().endswith("ing") and self._is_of_another(1):
+                raise self.left_over(chunk)  # "behind the hero driving at 12 m/s"
             case "state" | "event":
                 may = value == "pass" and (chunk.text.lower().startswith(_REACHES) or chunk.text.endswith(" point"))
                 self.states.add("reach" if may else value)
@@ -224,6 +234,16 @@ class Taken:
                 self.way(chunk)
             case _:
                 raise self.left_over(chunk)
+
+    def _word(self, ahead: int) -> str:
+        """Return the first word of a chunk from here."""
+        at = self.at + ahead
+        return self.chunks[at].text.lower().split()[0] if 0 <= at < len(self.chunks) else ""
+
+    def _is_of_another(self, back: int) -> bool:
+        """Whether what stands so far back is somebody that the clause is not about."""
+        at = self.at - back
+        return at >= 0 and self.chunks[at].kind in ("actor", "name") and at != self.subject_at
 
     def _says_no_more(self, chunk: Chunk) -> bool:
         """Whether a chunk is taken with its neighbours, or says here what they say."""
@@ -261,6 +281,9 @@ class Taken:
         return OPERATORS.get(value, "==")
 
     def _amount(self, chunk: Chunk) -> None:
+        fast = chunk.amount is not None and chunk.amount.dimension == "speed" and self.peek(-1) == ("side", "at")
+        if fast and self._is_of_another(2) and self.clause.subject is not None:
+            raise self.left_over(chunk)  # "slower than the ego at 15 m/s"
         op = self.bound()
         lead = self.peek(-2 if self.peek(-1)[0] == "bound" else -1)
         amount = chunk.amount
@@ -310,8 +333,9 @@ class Taken:
             if amount is None or amount.dimension != "speed":
                 raise self.left_over(chunk)
             self.clause.begins.append(st.Measure(IT, st.Quantity.SPEED, "==", amount, quote=chunk.quote))
-        elif side == "to" and (kind in ("amount", "bound") or value == "speed") and self.clause.deed is not None:
+        elif side == "to" and (kind in ("amount", "bound") or value in _BETWEEN) and self.clause.deed is not None:
             self.clause.flags.add("to there" if self._is_far() else "to")
+            self.stands_at = max(self.stands_at, self.at)
         elif side == "to" and kind == "amount" and self.clause.phase is None and (not self.amounts or self._is_far()):
             raise self.left_over(chunk)  # "but only to 10 m/s", "drives at 5 m/s to 10 m before it"
         elif not (self.road(side) or kind in _AFTER.get(side, ()) or (side, kind, value) in _INITIAL):
@@ -319,7 +343,7 @@ class Taken:
 
     def _is_far(self) -> bool:
         """Whether the next amount is one of a place: how far, or how long, from there."""
-        amounts = (each.amount for each in self.chunks[self.at + 1 : self.at + 3] if each.amount is not None)
+        amounts = (each.amount for each in self.chunks[self.at + 1 : self.at + 5] if each.amount is not None)
         return next((each.dimension in ("length", "time") for each in amounts), False)
 
     def _between(self, chunk: Chunk) -> None:

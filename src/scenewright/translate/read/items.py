@@ -169,6 +169,22 @@ def parted(chunks: list[Chunk]) -> tuple[list[Chunk], list[Chunk]]:
     return chunks[:cut], main[1:] if main and main[0].value == "then" else main
 
 
+def tail_of(chunks: list[Chunk]) -> tuple[list[Chunk], list[Chunk]]:
+    """Part a moment behind a deed from what is done besides: "brakes when the ego is ... and stops 5 m before ..."."""
+    for at, (chunk, following) in enumerate(pairwise(chunks)):
+        does = following.kind in ("deed", "event", "standstill") and not following.value.startswith("turn_")
+        dimension = "" if following.amount is None else following.amount.dimension
+        named = following.kind == "quantity" and following.value in ("rate", "deceleration", "acceleration")
+        besides = at > 0 and chunks[at - 1].kind == "comma"
+        how = chunk.kind == "side" and chunk.value in ("at", "with") and (named or dimension == "acceleration")
+        if (how and named and not besides) or (chunk.kind == "comma" and dimension == "length"):
+            told = " ".join(each.text for each in chunks[at:])
+            raise UnknownWordsError("it is not clear of whom this is", found=told, fix="say it in front of the moment")
+        if how or ((chunk.kind == "comma" or chunk.value == "and") and does):
+            return chunks[:at], chunks[at:]
+    return chunks, []
+
+
 def wishes_otherwise(chunks: Sequence[Chunk]) -> bool:
     """Whether something is meant to be done, but something else is done: "wants to brake but speeds up"."""
     but = next((at for at, chunk in enumerate(chunks) if chunk.kind == "joint" and chunk.text.lower() == "but"), 0)

@@ -187,7 +187,9 @@ class Narrative(Cast):
         for item in items:
             wish = item.notes & {"wanted", "relative"}
             fast = all(each.quantity is st.Quantity.SPEED for each in item.measures)
-            if item.facts and fast and not (wish or item.joined or item.flags):  # "when the ego leaves the driveway"
+            words = item.quote.text.lower().split()  # "when the ego, leaving the driveway, is ..."
+            beside = not {"is", "are"} & {*words} and any(each.endswith("ing") for each in words)
+            if item.facts and fast and not (wish or beside or item.joined or item.flags):  # "when the ego leaves it"
                 self.refuse("this is no condition", item.quote, "say where it is then, or what it passes")
             if wish or (item.facts.get("turn", "straight") == "straight" and not item.relations):
                 self.tell(item)

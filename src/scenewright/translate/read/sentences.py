@@ -26,6 +26,7 @@ from scenewright.translate.read.items import (
     parted,
     parts_of,
     segments_of,
+    tail_of,
     wishes_otherwise,
 )
 from scenewright.translate.read.leads import (
@@ -40,8 +41,8 @@ from scenewright.translate.read.leads import (
     told_moment,
 )
 from scenewright.translate.read.narrative import CHANGES, Doing, Narrative, steady, take_labels
+from scenewright.translate.read.points import HOW, event_of, put_in_order, read_ego_order, read_hold
 
-_HOW: dict[str, st.How] = {"always": "always", "never": "never", "at some time": "at some time"}
 _SAYS_NOTHING = {"unknown", "comma", "harmless", "again", "be", "joint", "quality", "name", "mood", "other"}
 _COMMENT = {*_SAYS_NOTHING, "comment", "actor", "relative", "yields", "insists", "refrains", "order", "side", "link"}
 
@@ -92,16 +93,17 @@ class _Sentence:
     led: Leads
     moment: int | None = None  # that it tells
     lasting: list[st.Condition] = field(default_factory=list)  # what is so as long as it is done
+    is_of_last: bool = False  # its moment stands behind what is done: it is of the last deed
 
     def read(self) -> None:
         self.story.mentioned, self.story.doer = [], None
         self.chunks = self.story.known_words(self.chunks)
         self.story.named = [chunk for chunk in self.chunks if chunk.kind in PEOPLE]
-        how = next((chunk for chunk in self.chunks if chunk.kind == "link" and chunk.value in _HOW), None)
+        how = next((chunk for chunk in self.chunks if chunk.kind == "link" and chunk.value in HOW), None)
         if self.chunks and self.chunks[0].kind == "ego's order":
-            self._ego_order()
+            read_ego_order(self.story, self.chunks)
         elif how is not None:
-            self._hold(how)
+            read_hold(self.story, self.chunks, how)
         elif self.chunks:
             self.led = leads_of(self.story, self.chunks, self.led.words)
             self.chunks = self.led.chunks
@@ -129,13 +131,20 @@ class _Sentence:
             rest[0].chunks = story.settled(rest[0].chunks, main.chunks)
         if wishes_otherwise(main.chunks):
             story.refuse("it is not clear what is done, and what is only meant to be")
+        acts, known_of = any(each.kind in ("deed", "state") for each in main.chunks), len(main.chunks)
+        for each in (*([later] if later else []), *(each for each in rest if each.link == "until" and acts)):
+            each.chunks, tail = tail_of(each.chunks) if acts else (each.chunks, [])
+            main.chunks += tail
         main.chunks, during = during_of(main.chunks)
         items = items_of(story, main.chunks, story.subject)
         if during:
+            if when and sum(each.deed is not None for each in items) > 1:
+                story.refuse("it is not clear how long this is so", fix="say it of one deed, in a sentence of its own")
             told, is_while = items_of(story, during), True
             when, self.lasting = [*(when or ()), *told], [*self.lasting, *all_the_while(story, told)]
         if later is not None:
             when = [*(when or ()), *told_moment(story, later)]
+        self.is_of_last = (later is not None or bool(during)) and len(main.chunks) <= known_of
         self._main(items, when, rest)
         deeds = sum(each.deed is not None for each in items)
         if (is_while and known == len(story.doings)) or (self.lasting and deeds > 1):
@@ -152,6 +161,8 @@ class _Sentence:
             story.refuse("it is not said until when this is so", fix="say it: 'stays 20 m ahead of it until it brakes'")
         items = [each for each in items if each.says_more_than()] or items[:1]
         does = any("shall" in each.notes and not each.says_more_than() for each in items)  # "so does the hero"
+        if when is not None and any(each.subject is not None and not each.says_more_than() for each in items):
+            story.refuse("nothing is said here", items[0].quote)  # "when ..., the hero is, too"
         timed = any(each.times for each in when or ())
         is_led = bool(self.led.words & {"then", "at once", "same time"})
         items = acts_of(story, items, (is_led or when is not None or self.pending is not None) and not timed)
@@ -177,7 +188,10 @@ class _Sentence:
         # "The hero begins to brake 2 s after ..." speaks of a deed that was told before.
         known = first.phase and story.doing_of(first) is not None and when is None and not self.led.words
         if first.deed and len(items) > 1:  # "it brakes to a stop, waits for 3 s and drives on"
+            late = self.is_of_last and all(each.deed for each in items) and "both" not in items[0].notes
+            late, then = late and self._is_of_last(), when
             for item, following in zip_longest(items, items[1:]):
+                when = then if late and not following else None if late else when
                 self._main([item], when, [] if following and "both" not in item.notes else rest)
                 if following is None:
                     continue
@@ -203,20 +217,26 @@ class _Sentence:
                 story.since = moment
             story.add(moment, story.conditions(items))
             story.subject = next((each.subject for each in reversed(items) if each.subject is not None), story.subject)
-            self._orders(moment, rest)
+            put_in_order(self.story, moment, rest)
         elif tells_time:
             if len(items) > 1:
                 story.refuse("only one event is before or after another")
             moment = story.event(first)
             if first.times:
                 story.timed(moment, first)
-            self._orders(moment, rest)
+            put_in_order(self.story, moment, rest)
         elif len(rest) == 1 and rest[0].link == "until" and not self.led.words:
             self._until(items, rest[0])
         elif rest:
             story.refuse("it is not clear when this is so")
         else:
             self._facts(items)
+
+    def _is_of_last(self) -> bool:
+        """Ask whether a moment behind several deeds is of the last of them."""
+        ways, quote = ["the last of these deeds", "the first of them"], self.story.quote
+        asked = f"What begins then: {quote.text}"
+        return self.story.ask(f"last {quote.start}", asked, ways, 0, quote) == ways[0]
 
     def _until(self, items: list[Clause], until: Segment) -> None:
         """Take what is so all the while until a moment: "The truck is at least 20 m ahead until it brakes"."""
@@ -228,7 +248,7 @@ class _Sentence:
 
         def hold() -> None:
             story.quote, story.doer = quote, doer
-            end = self._event_of(until.chunks)
+            end = event_of(self.story, until.chunks)
             start, begins = st.START, {doing.begins for doing in story.doings}
             if before is not None and end not in begins:
                 ways = ["from the start", "from when that is over which was told before"]
@@ -303,9 +323,9 @@ class _Sentence:
             story.refuse("it is not clear what is done here")
         if clause.phase == "finishes" or "after the start" in clause.times:
             story.refuse("nothing was told of this deed before")
-        if "has" in clause.notes:  # "when ..., the car has braked to a stop"
+        if "at it" in clause.notes:  # "when ..., the car has braked to a stop"
             fix = "say what is so then, and before that what it did until then"
-            story.refuse("what somebody has done by then cannot be told so", clause.quote, fix)
+            story.refuse("what began before cannot be told so", clause.quote, fix)
         if sum(each.link == "until" for each in rest) > 1:
             story.refuse("two ends of one deed are told")
         if turned := self.led.own.partition("turn ")[2]:  # "after turning left, it ..."
@@ -398,7 +418,7 @@ class _Sentence:
                 continue
             late = at_end or until or not (each.is_first or begun or (each.link == "after" and not is_end) or not ends)
             late = late and (doing.ends is not None or doing.rests)
-            self._orders(story.finish(doing) if late else doing.begins, [each])
+            put_in_order(self.story, story.finish(doing) if late else doing.begins, [each])
         if rests and "for" in clause.times:
             story.refuse("it is not clear what lasts so long")
 
@@ -412,7 +432,7 @@ class _Sentence:
             story.refuse("two ends of one deed are told", clause.quote)
         if until is not None and until.side:  # "until 1 s after the ego passes it"
             doing.ends = story.new_moment(ends)
-            self._orders(doing.ends, [Segment(until.side, until.chunks, until.margins)])
+            put_in_order(self.story, doing.ends, [Segment(until.side, until.chunks, until.margins)])
         elif until is not None:
             story.doer = doing.actor
             items = items_of(story, until.chunks)
@@ -427,70 +447,6 @@ class _Sentence:
             doing.ends = story.new_moment(ends)
         doing.rests = doing.verb == st.Verb.BRAKE and "while" not in clause.flags and not doing.lasts
         agree(_measures(told), clause.quote)
-
-    def _event_of(self, chunks: list[Chunk]) -> int:
-        """Return the moment of the one event that chunks tell."""
-        items = items_of(self.story, chunks)
-        if any("said" not in each.notes for each in items):  # "before the ego, at 12 m/s"
-            self.story.refuse("it is not clear of whom this is", st.Quote(chunks[0].start, chunks[-1].end, ""))
-        more = [each for item in items for each in item.measures if not st.is_event(each) and each.op == "=="]
-        comes = [each for item in items for each in item.measures if st.is_event(each)]
-        speeds = [each for each in more if each != st.standstill(each.actor)]
-        if len(items) != 1 or items[0].times or (comes and speeds):  # "before the ego begins to turn, at 5 m/s"
-            self.story.refuse("this is not one event")
-        return self.story.event(items[0])
-
-    def _point(self, chunks: list[Chunk]) -> st.Point:
-        """Return what "2 s before the hero begins to brake" tells."""
-        offset, earlier = None, False
-        if len(chunks) > 1 and chunks[0].kind == "amount" and chunks[1].value in ("before", "after"):
-            offset, earlier = chunks[0].amount, chunks[1].value == "before"
-            chunks = chunks[2:]
-        at_start = [chunk.value for chunk in chunks] == ["the start"]
-        return st.Point(st.START if at_start else self._event_of(chunks), offset, earlier)
-
-    def _orders(self, moment: int, rest: list[Segment]) -> None:
-        """Take what comes before or after a moment."""
-        for segment in rest:
-            if segment.link not in ORDERS:
-                self.story.refuse("it is not clear before or after what")
-            other = self._event_of(segment.chunks)
-            first, second = (other, moment) if segment.link in ("after", "no earlier than") else (moment, other)
-            if first == second:
-                self.story.refuse("one and the same is told to be before itself")
-            if st.START in (first, second):
-                self.story.refuse("this is told of what is so from the start: nothing was before that")
-            for op, margin in segment.margins or [(">=" if segment.link.startswith("no ") else ">", None)]:
-                self.story.orders.append(st.Order(first, second, op, margin, self.story.quote))
-
-    def _hold(self, how: Chunk) -> None:
-        """Read ``From ... until ..., always: ...``."""
-        at, links = self.chunks.index(how), [chunk.value for chunk in self.chunks]
-        if links[0] != "from" or "until" not in links[:at]:
-            fix = "From the start until ..., never: ..."
-            self.story.refuse(f"'{how.text}' needs a time from which and until which", fix=fix)
-        until = links.index("until")
-        start = self._point(self.chunks[1:until])
-        end = self._point([each for each in self.chunks[until + 1 : at] if each.kind != "comma"])
-        held = [each for each in self.chunks[at + 1 :] if each.text != ":"]
-        items = items_of(self.story, held)
-        conditions = self.story.conditions(items)
-        if len(items) != 1 or not conditions:
-            self.story.refuse("one condition holds all the while", fix="write a sentence for each")
-        condition = conditions[0] if len(conditions) == 1 else st.Compound("and", tuple(conditions))
-        self.story.holds.append(st.Hold(_HOW[how.value], start, end, condition, self.story.quote))
-
-    def _ego_order(self) -> None:
-        """Read ``In the ego's order: ..., then ...``."""
-        if self.story.ego is not None:
-            self.story.refuse("the ego's order is told twice")
-        events: list[list[Chunk]] = [[]]
-        for chunk in self.chunks[1:]:
-            if chunk.value == "then":
-                events.append([])
-            elif chunk.kind not in ("comma", "nothing"):
-                events[-1].append(chunk)
-        self.story.ego = tuple(self._event_of(chunks) for chunks in events if chunks)
 
 
 def _measures(conditions: Iterable[st.Condition]) -> Iterator[st.Measure]:
