@@ -331,3 +331,41 @@ def test_as_in_front_tells_a_moment() -> None:
     assert reading_of(f"{ROAD}As the ego leaves the driveway, the hero brakes.").kind == "refused"
     beside = reading_of(f"{ROAD}When the ego, leaving the driveway, is 12 m before the stop line, the hero brakes.")
     assert "A0x(t1) == stop_line - 12" in formulas(beside)
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "stands until the ego passes the stop line and drives on",
+        "drives at 8 m/s until it is 20 m before the conflict point and brakes at 3 m/s^2 to a stop",
+        f"slows to 5 m/s and accelerates to 12 m/s {BEHIND} and stops 5 m before the conflict point",
+        f"brakes {BEHIND} at 5 m/s",
+    ],
+)
+def test_what_goes_on_in_the_words_of_a_moment_is_refused_where_it_is_not_clear_when(said: str) -> None:
+    assert reading_of(f"{ROAD}The hero {said}.").kind == "refused"
+
+
+def test_a_headway_of_who_leads_is_the_others_and_nothing_else_of_it_is() -> None:
+    found = formulas(reading_of(f"{LEAD}When the hero has a TTC of 3 s and drives at 12 m/s, it brakes."))
+    assert {"ttc(A0, A1, t1) == 3", "A1v(t1) == 12"} <= found
+
+
+@pytest.mark.parametrize(
+    ("said", "formula"),
+    [
+        ("The hero drives 20 m ahead of the ego at 10 m/s.", "A1v(t0) == 10"),
+        ("The ego follows the hero at 12 m/s.", "A0v(t0) == 12"),
+        ("When both drive at 12 m/s and the gap is 20 m, the hero brakes.", "gap(A0, A1, t1) == 20"),
+    ],
+)
+def test_whose_a_speed_is_the_verb_tells(said: str, formula: str) -> None:
+    then = "" if said.startswith("When") else " When the gap is 15 m, the hero brakes."
+    assert formula in formulas(reading_of(LEAD + said + then))
+
+
+def test_two_who_act_when_it_is_told_last_act_then() -> None:
+    told = told_in(f"{WEST_EAST}The car brakes to a stop, and the truck brakes to 5 m/s, {BEHIND}.")
+    assert "When the ego is 12 m before the stop line, the car begins to brake until it stands." in told
+    told = told_in(f"{WEST_EAST}When the ego is 12 m before the stop line, the car drives past the conflict point.")
+    assert "the car begins to drive on until it is past the conflict point." in told

@@ -45,6 +45,8 @@ def acts_of(story: Narrative, items: list[Clause], happens: bool) -> list[Clause
         if is_hero and turns and not meant:
             story.tell_way(item.subject or EGO, item.facts, turns_then=True)
             item.facts, item.deed = {}, "turn"
+        elif is_hero and not acts and _drives_past(item):
+            item.flags, item.deed = item.flags | {"to there"}, st.Verb.DRIVE
         elif is_hero and _passes_at_a_speed(item):
             item.flags, item.deed = item.flags | {"to"}, st.Verb.DRIVE
         elif is_hero and "first" in item.flags and not item.says_more_than("flags"):
@@ -96,6 +98,13 @@ def _passes_at_a_speed(clause: Clause) -> bool:
     """Whether somebody comes to a place at a speed: "passes the conflict point at 12 m/s"."""
     kinds = {st.is_event(each) or each.quantity for each in clause.measures}
     return kinds == {True, st.Quantity.SPEED} and "event" in clause.notes and not clause.says_more_than("measures")
+
+
+def _drives_past(clause: Clause) -> bool:
+    """Whether somebody drives to where it is past a place: "drives past the stop line"."""
+    places = [each for each in clause.measures if each.quantity is st.Quantity.PLACE]
+    past = all(each.op == ">" or each.opposite for each in places) and len(places) == len(clause.measures) > 0
+    return past and "drives" in clause.notes and not clause.says_more_than("measures")
 
 
 def lasting(clause: Clause) -> None:

@@ -134,8 +134,6 @@ def _find_subject(taken: Taken) -> None:
         others = [each.other for each in taken.targets if each.side in ("to", "with") and each.other is not None]
         if clause.subject is not None and not taken.targets:  # "the ego's headway is 2 s"
             other = taken.people.whom(clause.quote, clause.subject)
-            if clause.deed is None and taken.people.told_rear(clause.subject, other) == other:  # it leads
-                clause.subject, other = other, clause.subject
             taken.targets.append(Target(0, "to", taken.chunks[-1], other=other))
         elif clause.subject is None and not taken.targets:
             taken.pair = taken.people.pair(taken.chunks[0])  # "when the gap is 20 m"
@@ -239,10 +237,7 @@ def _give(taken: Taken, at: int, op: st.Operator, chunk: Chunk, paired: Target |
     behind = side == "ahead"  # it is the other one that is behind
     if side in ("to", "with") and (asked == "gap" or clause.deed is not None):  # "brakes at a headway of 2 s"
         behind = taken.people.rear(clause.subject or EGO, target.other, chunk.quote) == target.other
-    elif asked == "bumper-to-bumper gap" and side in (
-        "to",
-        "with",
-    ):  # who has one is behind, unless it was said to lead
+    elif side in ("to", "with"):  # who has one is behind, unless it was said to lead
         behind = taken.people.told_rear(clause.subject or EGO, target.other) == target.other
     one, other = (target.other, IT) if behind else (IT, target.other)
     taken.measure(chunk, st.Measure(one, st.Quantity(asked), op, amount, other=other))

@@ -250,7 +250,8 @@ def _described(chunks: list[Chunk]) -> list[Chunk]:
     for at, (each, following) in enumerate(pairwise(found)):
         if each.text == "in" and (following.kind == "bound" or following.amount is not None):
             found[at] = replace(each, kind="side", value="in")  # "brakes to a stop in 4 s"
-    if found and found[0].text.lower() == "as" and any(each.kind == "actor" for each in found[1:3]):
+    acts = any(each.kind == "deed" for each in found)
+    if acts and found[0].text.lower() == "as" and any(each.kind == "actor" for each in found[1:3]):
         found[0] = replace(found[0], kind="link", value="when")  # "as the ego turns left, ..."
     another = {each for each in found if (each.kind, each.value) == ("det", "a") and len(each.text) > 3}
     for at, each in enumerate(found):

@@ -42,6 +42,7 @@ _PARTICIPLE = {  # behind "is" and "has"
     "is": re.compile("braking|decelerating|slowing|accelerating|speeding"),
     "has": re.compile(r"\w+ed$|been|stood|driven|gone|begun|come"),
 }
+_AT, _FOLLOWS = ("side", "at"), ("follow", "trail", "tail", "lead", "drive", "drove")
 _BETWEEN = ("speed", "gap", "bumper-to-bumper gap", "headway", "time to collision")
 BETWEEN_TWO = ("gap", "bumper-to-bumper gap", "headway", "time to collision")
 _INITIAL = (("at", "link", "start"), ("with", "link", "start"))  # "with an initial speed of"
@@ -218,7 +219,7 @@ class Taken:
                 self.targets.append(Target(self.at, value, chunk))
             case "relation":
                 clause.relations.append(st.Relation(value, EGO, chunk.quote))
-            case "state" if chunk.text.lower().endswith("ing") and self._is_of_another(1):
+            case "state" if chunk.text.lower().endswith("ing") and self._is_of_another(1) and self.peek() == _AT:
                 raise self.left_over(chunk)  # "behind the hero driving at 12 m/s"
             case "state" | "event":
                 may = value == "pass" and (chunk.text.lower().startswith(_REACHES) or chunk.text.endswith(" point"))
@@ -239,6 +240,11 @@ class Taken:
         """Return the first word of a chunk from here."""
         at = self.at + ahead
         return self.chunks[at].text.lower().split()[0] if 0 <= at < len(self.chunks) else ""
+
+    @property
+    def moves(self) -> bool:
+        """Whether its verb tells where it drives beside another: "follows the hero"."""
+        return any(each.kind == "side" and each.text.lower().startswith(_FOLLOWS) for each in self.chunks)
 
     def _is_of_another(self, back: int) -> bool:
         """Whether what stands so far back is somebody that the clause is not about."""
@@ -282,7 +288,8 @@ class Taken:
 
     def _amount(self, chunk: Chunk) -> None:
         fast = chunk.amount is not None and chunk.amount.dimension == "speed" and self.peek(-1) == ("side", "at")
-        if fast and self._is_of_another(2) and self.clause.subject is not None:
+        moves = self.clause.deed is not None or "drives" in self.states or self.moves
+        if fast and self._is_of_another(2) and self.clause.subject is not None and not moves:
             raise self.left_over(chunk)  # "slower than the ego at 15 m/s"
         op = self.bound()
         lead = self.peek(-2 if self.peek(-1)[0] == "bound" else -1)

@@ -169,10 +169,19 @@ def parted(chunks: list[Chunk]) -> tuple[list[Chunk], list[Chunk]]:
     return chunks[:cut], main[1:] if main and main[0].value == "then" else main
 
 
+def goes_on_in(chunks: Sequence[Chunk]) -> bool:
+    """Whether in what tells a moment something else is done, by nobody that is named: "until ... and stops"."""
+    return any(_does_more(*each) for each in pairwise(chunks))
+
+
+def _does_more(chunk: Chunk, following: Chunk) -> bool:
+    does = following.kind in ("deed", "event", "standstill") and not following.value.startswith("turn_")
+    return (chunk.kind == "comma" or chunk.value == "and") and does
+
+
 def tail_of(chunks: list[Chunk]) -> tuple[list[Chunk], list[Chunk]]:
     """Part a moment behind a deed from what is done besides: "brakes when the ego is ... and stops 5 m before ..."."""
     for at, (chunk, following) in enumerate(pairwise(chunks)):
-        does = following.kind in ("deed", "event", "standstill") and not following.value.startswith("turn_")
         dimension = "" if following.amount is None else following.amount.dimension
         named = following.kind == "quantity" and following.value in ("rate", "deceleration", "acceleration")
         besides = at > 0 and chunks[at - 1].kind == "comma"
@@ -180,7 +189,10 @@ def tail_of(chunks: list[Chunk]) -> tuple[list[Chunk], list[Chunk]]:
         if (how and named and not besides) or (chunk.kind == "comma" and dimension == "length"):
             told = " ".join(each.text for each in chunks[at:])
             raise UnknownWordsError("it is not clear of whom this is", found=told, fix="say it in front of the moment")
-        if how or ((chunk.kind == "comma" or chunk.value == "and") and does):
+        fast = chunk.kind == "side" and dimension == "speed"
+        if fast and chunk.value == "at" and all(each.kind not in ("state", "deed", "quantity") for each in chunks[:at]):
+            raise UnknownWordsError("it is not clear who is so fast", found=following.text, fix="say it with its verb")
+        if how or (fast and chunk.value == "to") or _does_more(chunk, following):
             return chunks[:at], chunks[at:]
     return chunks, []
 

@@ -22,6 +22,7 @@ from scenewright.translate.read.items import (
     ORDERS,
     Segment,
     during_of,
+    goes_on_in,
     items_of,
     parted,
     parts_of,
@@ -131,10 +132,14 @@ class _Sentence:
             rest[0].chunks = story.settled(rest[0].chunks, main.chunks)
         if wishes_otherwise(main.chunks):
             story.refuse("it is not clear what is done, and what is only meant to be")
-        acts, known_of = any(each.kind in ("deed", "state") for each in main.chunks), len(main.chunks)
-        for each in (*([later] if later else []), *(each for each in rest if each.link == "until" and acts)):
-            each.chunks, tail = tail_of(each.chunks) if acts else (each.chunks, [])
+        told_deeds = [each for each in main.chunks if each.kind in ("deed", "state")]
+        tail: list[Chunk] = []
+        if later is not None and told_deeds:
+            later.chunks, tail = tail_of(later.chunks)
             main.chunks += tail
+        does_more = any(goes_on_in(each.chunks) for each in rest if each.link == "until" and told_deeds)
+        if does_more or (tail and len(told_deeds) > 1):
+            story.refuse("it is not clear who does this, or when", fix="say it in a sentence of its own")
         main.chunks, during = during_of(main.chunks)
         items = items_of(story, main.chunks, story.subject)
         if during:
@@ -144,7 +149,7 @@ class _Sentence:
             when, self.lasting = [*(when or ()), *told], [*self.lasting, *all_the_while(story, told)]
         if later is not None:
             when = [*(when or ()), *told_moment(story, later)]
-        self.is_of_last = (later is not None or bool(during)) and len(main.chunks) <= known_of
+        self.is_of_last = (later is not None or bool(during)) and not tail
         self._main(items, when, rest)
         deeds = sum(each.deed is not None for each in items)
         if (is_while and known == len(story.doings)) or (self.lasting and deeds > 1):
@@ -171,6 +176,8 @@ class _Sentence:
                 story.refuse("it is not said what is done")
             return
         acts = next((at for at, each in enumerate(items) if each.deed), 0)
+        if acts and "then" in items[acts].notes:
+            story.refuse("it is not clear when this is done", items[acts].quote, "say it in a sentence of its own")
         if when is not None and not any(each.is_event for each in items[:acts]):
             when, items = [*when, *items[:acts]], items[acts:]  # "when ..., the hero is 20 m before it and brakes"
         first = items[0] if items else Clause(story.quote)
@@ -188,7 +195,8 @@ class _Sentence:
         # "The hero begins to brake 2 s after ..." speaks of a deed that was told before.
         known = first.phase and story.doing_of(first) is not None and when is None and not self.led.words
         if first.deed and len(items) > 1:  # "it brakes to a stop, waits for 3 s and drives on"
-            late = self.is_of_last and all(each.deed for each in items) and "both" not in items[0].notes
+            alone = len({each.subject for each in items}) == 1 and all(each.deed for each in items)
+            late = self.is_of_last and alone and "both" not in items[0].notes
             late, then = late and self._is_of_last(), when
             for item, following in zip_longest(items, items[1:]):
                 when = then if late and not following else None if late else when
