@@ -169,6 +169,11 @@ def resting_on(formulas: Sequence[Named], origins: Collection[str]) -> list[Name
     return [each for each in formulas if all(origin in origins for origin in each.origins)]
 
 
+def origins_of(formulas: Iterable[Named]) -> list[str]:
+    """Return all that formulas rest on, each once."""
+    return list(dict.fromkeys(origin for each in formulas for origin in each.origins))
+
+
 def needed(items: Sequence[Item], clash: Callable[[list[Item]], bool]) -> list[Item]:
     """Return what of `items`, which clash together, is needed for that: all but what is found superfluous."""
     kept = list(items)

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import product
 
-from scenewright.algebra.polynomials import resting_on
+from scenewright.algebra.polynomials import origins_of, resting_on
 from scenewright.motion.limits import Limits
 from scenewright.motion.profile import Profile, Segment
 from scenewright.plan.one_rate import OneRate, Past, Question
@@ -140,8 +140,10 @@ class SmtPlanner:
         self.plan = Plan(profiles, tolerance, parameters)
 
     def _clash(self, question: Question) -> str:
-        origins = list(dict.fromkeys(origin for each in question.formulas for origin in each.origins))
-        core = clashing(self._solver, origins, lambda kept: (question.unknowns, resting_on(question.formulas, kept)))
+        formulas = question.formulas
+        core = clashing(
+            self._solver, origins_of(formulas), lambda kept: (question.unknowns, resting_on(formulas, kept))
+        )
         return f"no motion of one rate a piece holds all of: {self._words(core)}"
 
     def _words(self, origins: Sequence[str]) -> str:

@@ -42,7 +42,7 @@ from scenewright.units import pin
 _SAME_ROAD_M = 1.0
 # Newton steps after which nothing but a last resort is tried: of 160 cases of the benchmark none did well after more.
 _MOST_STEPS = 700
-_GUESSES = 12  # from which a witness is sought in which the ego holds its speed: one in thirty takes more than six
+_GUESSES = 12  # from which a witness is sought in which the ego holds its speed; of what can happen 29 in 30 take six
 
 
 def first_plan(

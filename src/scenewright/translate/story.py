@@ -94,7 +94,7 @@ class Measure:
     amount: Amount | None = None
     place: Place | None = None
     other: int | None = (
-        None  # whom a distance, a headway or a time to collision is to; whose speed a speed is held against
+        None  # whom a distance, a headway or a time to collision is to; with whose speed one is compared
     )
     opposite: bool = False
     quote: Quote | None = field(default=None, compare=False, repr=False)

@@ -11,7 +11,7 @@ from planted import Motion, Planted, lowered, plant
 from scipy.optimize import linprog
 
 from posed import violation
-from scenewright.algebra.polynomials import resting_on
+from scenewright.algebra.polynomials import origins_of, resting_on
 from scenewright.motion.limits import limits_on
 from scenewright.program.text import parse_program
 from scenewright.roads.grounding import ground
@@ -147,8 +147,8 @@ def test_what_clashes_names_what_makes_a_law_narrower(constraint: str) -> None:
     scene = Planted(f"{HEAD}probe: {constraint}\n", {}, {}).scene()
     events, lowering = lowered(scene)
     formulas = relaxation(events, lowering.narrowings, lowering.lower(scene.program.constraints))
-    z3, origins = SOLVERS.called("z3"), list(dict.fromkeys(origin for each in formulas for origin in each.origins))
-    found = clashing(z3, origins, lambda names: (events.unknowns, resting_on(formulas, names)))
+    z3 = SOLVERS.called("z3")
+    found = clashing(z3, origins_of(formulas), lambda names: (events.unknowns, resting_on(formulas, names)))
     assert "probe" in found
     assert z3.ask(events.unknowns, resting_on(formulas, found), 5.0).kind == "refuted", "it clashes by itself"
 

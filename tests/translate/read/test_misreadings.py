@@ -38,7 +38,10 @@ def test_when_somebody_begins_to_turn_is_of_that_and_not_of_when_it_has_turned()
     turns = told_in(f"{ONCOMING}When the ego is 40 m before the conflict point, the hero turns 1 s before the ego "
                     "passes the conflict point.")  # fmt: skip
     assert "When is this: hero turns" in turns
-    for when, told in (("after the truck stops", "after the truck finishes"), ("before the truck begins to brake", "")):
+    for when, told in (
+        ("after the truck stops", "The car begins to brake 2 s after the truck finishes braking."),
+        ("before the truck begins to brake", "The truck begins to brake 2 s after the car finishes braking."),
+    ):
         text = f"{LEFT_AND_RIGHT}When the ego is 10 m before its stop line, the truck brakes to a stop. The car brakes "
         text = told_in(f"{text}to a stop 2 s {when}.")
         assert told in text
@@ -155,7 +158,6 @@ WEST_EAST = (
     "The ego turns left out of the driveway. A car drives west along the road. A truck drives east along the road. "
 )
 AT_LINE = f"{WEST_EAST}When the ego is 12 m before the stop line, "
-LEAD = "The ego drives west along the road. The hero is ahead of the ego and goes straight on. "
 
 
 @pytest.mark.parametrize(
@@ -210,7 +212,7 @@ def test_a_way_is_no_moment(when: str) -> None:
 def test_as_many_amounts_as_places_go_together_in_their_order() -> None:
     for said in ("distance to the hero is 20 m and to the intersection 15 m",
                  "distance to the hero is 20 m, 15 m before the intersection"):  # fmt: skip
-        found = formulas(reading_of(f"{LEAD}When the ego's {said}, the hero brakes to a stop."))
+        found = formulas(reading_of(f"{ALONG}When the ego's {said}, the hero brakes to a stop."))
         assert {"gap(A0, A1, t1) == 20", "A0x(t1) == intersection - 15"} <= found
 
 
@@ -224,7 +226,7 @@ ONE_BEHIND = {
 
 @pytest.mark.parametrize(("said", "formula"), ONE_BEHIND.items())
 def test_who_drives_behind_is_known_whoever_acts(said: str, formula: str) -> None:
-    assert formula in formulas(reading_of(LEAD + said))
+    assert formula in formulas(reading_of(ALONG + said))
 
 
 @pytest.mark.parametrize(
@@ -305,7 +307,7 @@ def test_a_moment_behind_several_deeds_is_of_the_last_which_is_asked() -> None:
     ],
 )
 def test_what_stands_behind_a_second_name_is_not_given_to_the_first(when: str) -> None:
-    assert reading_of(f"{LEAD}When {when}, the hero brakes.").kind == "refused"
+    assert reading_of(f"{ALONG}When {when}, the hero brakes.").kind == "refused"
 
 
 @pytest.mark.parametrize(
@@ -321,7 +323,7 @@ def test_what_stands_behind_a_second_name_is_not_given_to_the_first(when: str) -
     ],
 )
 def test_what_a_deed_is_done_to_is_its_end(said: str, told: str) -> None:
-    assert told in told_in(f"{LEAD}When the ego is 50 m before the intersection, the hero {said}.")
+    assert told in told_in(f"{ALONG}When the ego is 50 m before the intersection, the hero {said}.")
 
 
 def test_as_in_front_tells_a_moment() -> None:
@@ -347,7 +349,7 @@ def test_what_goes_on_in_the_words_of_a_moment_is_refused_where_it_is_not_clear_
 
 
 def test_a_headway_of_who_leads_is_the_others_and_nothing_else_of_it_is() -> None:
-    found = formulas(reading_of(f"{LEAD}When the hero has a TTC of 3 s and drives at 12 m/s, it brakes."))
+    found = formulas(reading_of(f"{ALONG}When the hero has a TTC of 3 s and drives at 12 m/s, it brakes."))
     assert {"ttc(A0, A1, t1) == 3", "A1v(t1) == 12"} <= found
 
 
@@ -361,7 +363,7 @@ def test_a_headway_of_who_leads_is_the_others_and_nothing_else_of_it_is() -> Non
 )
 def test_whose_a_speed_is_the_verb_tells(said: str, formula: str) -> None:
     then = "" if said.startswith("When") else " When the gap is 15 m, the hero brakes."
-    assert formula in formulas(reading_of(LEAD + said + then))
+    assert formula in formulas(reading_of(ALONG + said + then))
 
 
 def test_two_who_act_when_it_is_told_last_act_then() -> None:
@@ -369,3 +371,47 @@ def test_two_who_act_when_it_is_told_last_act_then() -> None:
     assert "When the ego is 12 m before the stop line, the car begins to brake until it stands." in told
     told = told_in(f"{WEST_EAST}When the ego is 12 m before the stop line, the car drives past the conflict point.")
     assert "the car begins to drive on until it is past the conflict point." in told
+
+
+@pytest.mark.parametrize("gap", [" ", "\n", "  "])
+def test_a_line_break_changes_no_meaning(gap: str) -> None:
+    soon = f"As soon{gap}as the ego is past its stop line, the hero brakes."
+    assert "When the ego passes the stop line," in told_in(ROAD + soon)
+    up_to = told_in(
+        f"{ROAD}When the ego is 12 m before the stop line, the hero drives on up{gap}to 5 m before the turn."
+    )
+    assert "drive on until it is 5 m before the turn." in up_to
+
+
+def test_as_soon_as_a_bound_before_a_place_holds_it_is_so_far_from_it() -> None:
+    found = formulas(reading_of(f"{ROAD}As soon as the ego is less than 12 m before the stop line, the hero brakes."))
+    assert "A0x(t1) == stop_line - 12" in found
+    either = "either the ego is past the stop line or the hero is past the turn"
+    assert reading_of(f"{ROAD}As soon as {either}, the hero brakes.").kind == "refused"
+
+
+def test_two_who_go_on_later_both_do_so_then() -> None:
+    found = formulas(reading_of(f"{AT_LINE}the car and the truck brake to a stop and drive on 3 s later."))
+    assert "A2(t3) - A1(t3) == 3" not in found
+    assert len([each for each in found if each.endswith(" == 3")]) == 2
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "brakes to a stop about 2 s after the ego passes the stop line",
+        "brakes to a stop when the ego reaches its stop line and passes the conflict point",
+    ],
+)
+def test_what_is_vague_or_of_another_is_refused(said: str) -> None:
+    assert reading_of(f"{ROAD}The hero {said}.").kind == "refused"
+
+
+def test_up_to_is_a_bound_but_of_where_one_drives() -> None:
+    found = formulas(reading_of(f"{AT_LINE}the car comes to a stop up to 5 m before the turn."))
+    assert {"A1x(t2) >= turn - 5", "A1x(t2) <= turn"} <= found
+
+
+def test_who_does_what_stands_behind_a_moment_is_asked() -> None:
+    told = told_in(f"{ROAD}The hero speeds up to 15 m/s {BEHIND} and brakes.")
+    assert "Of whom is 'brakes'" in told

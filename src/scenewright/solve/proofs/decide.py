@@ -15,7 +15,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from scenewright.algebra.polynomials import ZERO, Formula, Named, Unknown, resting_on
+from scenewright.algebra.polynomials import ZERO, Formula, Named, Unknown, origins_of, resting_on
 from scenewright.motion.limits import Limits
 from scenewright.motion.profile import Profile
 from scenewright.program.structure import Structure, actors_of
@@ -228,8 +228,8 @@ def _core(question: Question, unknowns: Sequence[Unknown], formulas: Sequence[Na
     kept = clashing(refuter, told, lambda names: _posed(question, names))
     if kept != told:
         unknowns, formulas = _posed(question, kept)
-    origins = dict.fromkeys(origin for each in formulas for origin in each.origins if origin not in kept)
-    laws = clashing(refuter, list(origins), lambda laws: (unknowns, resting_on(formulas, (*kept, *laws))))
+    origins = [origin for origin in origins_of(formulas) if origin not in kept]
+    laws = clashing(refuter, origins, lambda laws: (unknowns, resting_on(formulas, (*kept, *laws))))
     rests_on, ranges = resting_on(formulas, (*kept, *laws)), []
     for kind, words in _RANGES.items():
         wide = (replace(each, low=-_WIDER * each.high, high=_WIDER * each.high) for each in unknowns)
@@ -244,7 +244,7 @@ def _tops(question: Question, kept: Collection[str]) -> str:
     program = question.scene.program
     told = {actor for each in kept for actor in actors_of(program.constraint(each).formula)}
     tops = {EGO: question.ego.speed_max_mps} | {h.id: question.limits[h.id].speed_max_mps for h in program.heroes}
-    return ", ".join(f"{program.actor(actor).name} 0 to {tops[actor]:.4g} m/s" for actor in sorted(told))
+    return ", ".join(f"{program.actor(actor).name} 0 to {tops[actor]:.4g} m/s" for actor in sorted(told or tops))
 
 
 def _posed(question: Question, kept: Collection[str]) -> tuple[Sequence[Unknown], Sequence[Named]]:

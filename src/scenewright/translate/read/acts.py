@@ -45,10 +45,8 @@ def acts_of(story: Narrative, items: list[Clause], happens: bool) -> list[Clause
         if is_hero and turns and not meant:
             story.tell_way(item.subject or EGO, item.facts, turns_then=True)
             item.facts, item.deed = {}, "turn"
-        elif is_hero and not acts and _drives_past(item):
-            item.flags, item.deed = item.flags | {"to there"}, st.Verb.DRIVE
-        elif is_hero and _passes_at_a_speed(item):
-            item.flags, item.deed = item.flags | {"to"}, st.Verb.DRIVE
+        elif is_hero and not acts and (ends := _comes_to(item)):
+            item.flags, item.deed = item.flags | ends, st.Verb.DRIVE
         elif is_hero and "first" in item.flags and not item.says_more_than("flags"):
             item.flags, item.deed = item.flags - {"first"}, "go first"
         elif "kept" in item.flags and (is_hero or goes_on) and not item.says_more_than("flags", "times", "measures"):
@@ -94,17 +92,14 @@ def acts_of(story: Narrative, items: list[Clause], happens: bool) -> list[Clause
     return found
 
 
-def _passes_at_a_speed(clause: Clause) -> bool:
-    """Whether somebody comes to a place at a speed: "passes the conflict point at 12 m/s"."""
-    kinds = {st.is_event(each) or each.quantity for each in clause.measures}
-    return kinds == {True, st.Quantity.SPEED} and "event" in clause.notes and not clause.says_more_than("measures")
-
-
-def _drives_past(clause: Clause) -> bool:
-    """Whether somebody drives to where it is past a place: "drives past the stop line"."""
+def _comes_to(clause: Clause) -> set[str]:
+    """Return to what somebody comes that drives past a place, or passes it at a speed; nothing where it does not."""
     places = [each for each in clause.measures if each.quantity is st.Quantity.PLACE]
-    past = all(each.op == ">" or each.opposite for each in places) and len(places) == len(clause.measures) > 0
-    return past and "drives" in clause.notes and not clause.says_more_than("measures")
+    speeds = [each for each in clause.measures if each.quantity is st.Quantity.SPEED]
+    passes = bool(speeds) and "event" in clause.notes and all(map(st.is_event, places))
+    past = "drives" in clause.notes and all(each.op == ">" or each.opposite for each in places)
+    told = not places or len(places) + len(speeds) != len(clause.measures) or clause.says_more_than("measures")
+    return set() if told or not (passes or past) else {"to there", *(["to"] if speeds else [])}
 
 
 def lasting(clause: Clause) -> None:

@@ -67,6 +67,11 @@ class Chunk:
     slips: tuple[str, ...] = ()  # the words that it was read with where the text seems to have a slip of the pen
 
     @property
+    def words(self) -> str:
+        """The words that it is, however they are written and broken into lines."""
+        return " ".join(self.text.lower().split())
+
+    @property
     def quote(self) -> Quote:
         """Where it came from."""
         return Quote(self.start, self.end, self.text)

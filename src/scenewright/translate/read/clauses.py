@@ -6,7 +6,6 @@ or an `UnknownWordsError` with the words that nothing could be made of. Order de
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable
 from dataclasses import dataclass, field, fields, replace
 
@@ -38,12 +37,7 @@ _DIMENSIONS: dict[str, Dimension] = {
     "time to collision": "time", "time to arrival": "time",
     "rate": "acceleration", "acceleration": "acceleration", "deceleration": "acceleration",
 }  # fmt: skip
-_PARTICIPLE = {  # behind "is" and "has"
-    "is": re.compile("braking|decelerating|slowing|accelerating|speeding"),
-    "has": re.compile(r"\w+ed$|been|stood|driven|gone|begun|come"),
-}
 _AT, _FOLLOWS = ("side", "at"), ("follow", "trail", "tail", "lead", "drive", "drove")
-_BETWEEN = ("speed", "gap", "bumper-to-bumper gap", "headway", "time to collision")
 BETWEEN_TWO = ("gap", "bumper-to-bumper gap", "headway", "time to collision")
 _INITIAL = (("at", "link", "start"), ("with", "link", "start"))  # "with an initial speed of"
 
@@ -183,8 +177,7 @@ class Taken:
                 raise self.left_over(chunk)
             case "be" | "possessive" | "quality":
                 clause.notes |= {value} & {"has", "stays"}
-                if chunk.kind == "be" and (lasts := _PARTICIPLE.get(value)) and lasts.match(self._word(1)):
-                    clause.notes.add("at it")  # "has braked", "is braking": it began before
+                clause.notes |= {"at it"} if chunk.kind == "be" and self._is_at_it(value) else set()
             case "mood":
                 clause.notes.add(value)
             case "amount" | "no unit":
@@ -236,10 +229,13 @@ class Taken:
             case _:
                 raise self.left_over(chunk)
 
-    def _word(self, ahead: int) -> str:
-        """Return the first word of a chunk from here."""
-        at = self.at + ahead
-        return self.chunks[at].text.lower().split()[0] if 0 <= at < len(self.chunks) else ""
+    def _is_at_it(self, value: str) -> bool:
+        """Whether what follows "is" or "has" began before: "has braked", "has been driving", "is braking"."""
+        following = next(iter(self.chunks[self.at + 1 :]), None)
+        if following is None or value == "has":
+            return following is not None and (following.kind in ("deed", "event", "state") or following.words == "been")
+        changes = following.value in (st.Verb.BRAKE, st.Verb.SPEED_UP)
+        return value == "is" and following.kind == "deed" and changes and following.words.split()[0].endswith("ing")
 
     @property
     def moves(self) -> bool:
@@ -276,7 +272,7 @@ class Taken:
         if value == "falls":
             self.clause.flags.add("falls")
         far = amount.amount is not None and amount.amount.dimension == "length"
-        if far and self.clause.deed is not None and self.chunks[self.at - 1].text.lower() == "up to":
+        if far and self.clause.deed == st.Verb.DRIVE and self.chunks[self.at - 1].words == "up to":
             self.clause.flags.add("to there")  # "drives on up to 5 m before it"
             return "=="
         if value == "about":
@@ -340,7 +336,11 @@ class Taken:
             if amount is None or amount.dimension != "speed":
                 raise self.left_over(chunk)
             self.clause.begins.append(st.Measure(IT, st.Quantity.SPEED, "==", amount, quote=chunk.quote))
-        elif side == "to" and (kind in ("amount", "bound") or value in _BETWEEN) and self.clause.deed is not None:
+        elif (
+            side == "to"
+            and (kind in ("amount", "bound") or value in ("speed", *BETWEEN_TWO))
+            and self.clause.deed is not None
+        ):
             self.clause.flags.add("to there" if self._is_far() else "to")
             self.stands_at = max(self.stands_at, self.at)
         elif side == "to" and kind == "amount" and self.clause.phase is None and (not self.amounts or self._is_far()):

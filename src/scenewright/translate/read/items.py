@@ -104,7 +104,7 @@ def segments_of(chunks: list[Chunk], is_led: bool = False) -> list[Segment]:
             else:
                 raise UnknownWordsError("it is not clear how much before or after this is", found=chunk.text)
         elif chunk.kind == "link" and chunk.value in LINKS:
-            found.append(Segment(chunk.value, is_sharp=chunk.text.lower() in _AT_ONCE))
+            found.append(Segment(chunk.value, is_sharp=chunk.words in _AT_ONCE))
         else:
             found[-1].chunks.append(chunk)
     for before, segment in pairwise(found):  # "it passes the stop line before the ego (does)"
@@ -141,6 +141,9 @@ def _margins(chunks: list[Chunk]) -> list[Margin]:
     while chunks and (amount := chunks[-1].amount) is not None and amount.dimension == "time":
         chunks.pop()
         bound = chunks.pop().value if chunks and chunks[-1].kind == "bound" else "=="
+        if bound not in (*OPERATORS, "falls"):  # "about 2 s after"
+            fix = "say exactly how much, or at least or at most how much"
+            raise UnknownWordsError("it is not clear how much before or after this is", found=amount.unit, fix=fix)
         found.insert(0, (OPERATORS["<=" if bound == "falls" else bound], amount))
         if not chunks or chunks[-1].value != "and":
             break

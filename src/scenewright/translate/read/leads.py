@@ -1,7 +1,7 @@
-"""When a sentence is: the words in front of it that say so, and the moment that they lead to.
+"""When a sentence is: the words in front of it that say so, the moment that they lead to, and how long that lasts.
 
-What enters: the chunks of a sentence, and what was told before. What leaves: `Leads`, and moments of the narrative.
-What happens at these is none of its business.
+What enters: the chunks of a sentence, and what was told before. What leaves: `Leads`, moments of the narrative, and
+what is asked of when something is. What happens then is none of its business.
 """
 
 from __future__ import annotations
@@ -39,9 +39,7 @@ def leads_of(story: Narrative, chunks: Sequence[Chunk], words: Set[str] = frozen
     joined = any(chunk.value == "if" for chunk in chunks)  # its "then" is another
     for chunk, following in zip_longest(chunks, chunks[1:]):
         kept = found.chunks
-        one = not joined and all(
-            each.kind not in ("comma", "joint", "deed") for each in kept
-        )  # it is of the first clause
+        one = not joined and all(each.kind not in ("comma", "joint", "deed") for each in kept)
         free = not kept or (one and kept[-1].kind in ("be", "mood", *PEOPLE) and chunk.value != "start")
         word, _, own = chunk.value.partition("then ")
         # "After braking to 5 m/s" says more than that it did.
@@ -178,9 +176,13 @@ def _after(story: Narrative, last: Doing | None, clause: Clause, leads: Leads) -
 def told_moment(story: Narrative, segment: Segment) -> list[Clause]:
     """Return what is so at a moment; as soon as it is so a bound is just reached, and who has passed just passes."""
     when = items_of(story, segment.chunks)
-    measures = [each for clause in when for each in clause.measures]
-    if not segment.is_sharp or not measures:
+    if not segment.is_sharp:
         return when
+    told = [each for clause in when for each in clause.measures]
+    sides = {st.not_beyond(each) for each in told}  # "less than 12 m before it" says it besides
+    measures = [each for each in told if each not in sides]
+    if any(clause.joined for clause in when):
+        story.refuse("it is not clear which of these comes to be so then", fix="say a sentence for each")
     for clause in when:
         clause.notes -= {"has"}
     if all(each.op != "==" for each in measures):
@@ -188,7 +190,7 @@ def told_moment(story: Narrative, segment: Segment) -> list[Clause]:
             fix = "say one of them exactly, as in '20 m'"
             story.refuse("it is not clear which of these comes to be so then", fix=fix)
         for clause in when:
-            clause.measures = [replace(each, op="==") for each in clause.measures]
+            clause.measures = [replace(each, op="==") for each in clause.measures if each in measures]
     return when
 
 
@@ -206,6 +208,23 @@ def all_the_while(story: Narrative, when: list[Clause]) -> list[st.Condition]:
     asked = f"How long is this so: {story.quote.text}"
     keeps = moving and story.ask(f"while {story.quote.start}", asked, ways, 0, story.quote) == ways[0]
     return moving if keeps else []
+
+
+def is_of_who_acts(story: Narrative, main: Sequence[Chunk], tail: Sequence[Chunk]) -> bool:
+    """Whether what stands behind a moment is of who acts: how it does that is; another deed is asked about.
+
+    Who brakes may well stop. Who comes to a stop passes nothing then, so that is of another, or of another time.
+    """
+    does = next((each for each in tail if each.kind in ("deed", "event", "standstill")), None)
+    brakes = any(each.value == st.Verb.BRAKE for each in main)
+    if does is None or (brakes and does.value in ("stop", "standstill")):
+        return True
+    stops = any(each.kind == "standstill" or each.value == "stop" for each in main)
+    ways = ["of who acts", "of whom the moment is"]
+    asked = f"Of whom is '{does.text}': {story.quote.text}"
+    return (
+        not (stops and does.kind == "event") and story.ask(f"whose {does.start}", asked, ways, 0, does.quote) == ways[0]
+    )
 
 
 def is_of_its_begin(story: Narrative, clause: Clause, *, at_first: bool) -> bool:

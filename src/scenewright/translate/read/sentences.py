@@ -34,6 +34,7 @@ from scenewright.translate.read.leads import (
     Leads,
     all_the_while,
     is_of_its_begin,
+    is_of_who_acts,
     last_of,
     leads_of,
     moment_led_to,
@@ -136,11 +137,10 @@ class _Sentence:
         tail: list[Chunk] = []
         if later is not None and told_deeds:
             later.chunks, tail = tail_of(later.chunks)
-            main.chunks += tail
         does_more = any(goes_on_in(each.chunks) for each in rest if each.link == "until" and told_deeds)
-        if does_more or (tail and len(told_deeds) > 1):
+        if does_more or (tail and (len(told_deeds) > 1 or not is_of_who_acts(story, main.chunks, tail))):
             story.refuse("it is not clear who does this, or when", fix="say it in a sentence of its own")
-        main.chunks, during = during_of(main.chunks)
+        main.chunks, during = during_of([*main.chunks, *tail])
         items = items_of(story, main.chunks, story.subject)
         if during:
             if when and sum(each.deed is not None for each in items) > 1:
@@ -196,10 +196,10 @@ class _Sentence:
         known = first.phase and story.doing_of(first) is not None and when is None and not self.led.words
         if first.deed and len(items) > 1:  # "it brakes to a stop, waits for 3 s and drives on"
             alone = len({each.subject for each in items}) == 1 and all(each.deed for each in items)
-            late = self.is_of_last and alone and "both" not in items[0].notes
-            late, then = late and self._is_of_last(), when
+            late = self.is_of_last and alone and "both" not in items[0].notes and self._is_of_last()
+            then, when = when, None if late else when
             for item, following in zip_longest(items, items[1:]):
-                when = then if late and not following else None if late else when
+                when = then if late and following is None else when
                 self._main([item], when, [] if following and "both" not in item.notes else rest)
                 if following is None:
                     continue
@@ -208,7 +208,7 @@ class _Sentence:
                 follows = following.subject == item.subject and item.deed is not None
                 if not following.deed and following.measures and "said" not in following.notes:
                     story.refuse("it is not said what is done", following.quote)  # "... and the car at 6 m/s"
-                if follows or "then" in following.notes or "later" in following.times:
+                if follows or "then" in following.notes or ("later" in following.times and "both" not in item.notes):
                     self.led.words, when, self.pending = {"then"}, None, None
                 elif when is None and following.subject != item.subject:  # "then one brakes and another speeds up"
                     self.led.words = {"same time"}
@@ -225,14 +225,14 @@ class _Sentence:
                 story.since = moment
             story.add(moment, story.conditions(items))
             story.subject = next((each.subject for each in reversed(items) if each.subject is not None), story.subject)
-            put_in_order(self.story, moment, rest)
+            put_in_order(story, moment, rest)
         elif tells_time:
             if len(items) > 1:
                 story.refuse("only one event is before or after another")
             moment = story.event(first)
             if first.times:
                 story.timed(moment, first)
-            put_in_order(self.story, moment, rest)
+            put_in_order(story, moment, rest)
         elif len(rest) == 1 and rest[0].link == "until" and not self.led.words:
             self._until(items, rest[0])
         elif rest:
@@ -256,7 +256,7 @@ class _Sentence:
 
         def hold() -> None:
             story.quote, story.doer = quote, doer
-            end = event_of(self.story, until.chunks)
+            end = event_of(story, until.chunks)
             start, begins = st.START, {doing.begins for doing in story.doings}
             if before is not None and end not in begins:
                 ways = ["from the start", "from when that is over which was told before"]
@@ -426,7 +426,7 @@ class _Sentence:
                 continue
             late = at_end or until or not (each.is_first or begun or (each.link == "after" and not is_end) or not ends)
             late = late and (doing.ends is not None or doing.rests)
-            put_in_order(self.story, story.finish(doing) if late else doing.begins, [each])
+            put_in_order(story, story.finish(doing) if late else doing.begins, [each])
         if rests and "for" in clause.times:
             story.refuse("it is not clear what lasts so long")
 
@@ -440,7 +440,7 @@ class _Sentence:
             story.refuse("two ends of one deed are told", clause.quote)
         if until is not None and until.side:  # "until 1 s after the ego passes it"
             doing.ends = story.new_moment(ends)
-            put_in_order(self.story, doing.ends, [Segment(until.side, until.chunks, until.margins)])
+            put_in_order(story, doing.ends, [Segment(until.side, until.chunks, until.margins)])
         elif until is not None:
             story.doer = doing.actor
             items = items_of(story, until.chunks)
