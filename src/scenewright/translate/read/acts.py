@@ -131,7 +131,7 @@ def shares_of(story: Narrative, clause: Clause) -> tuple[list[st.Measure], list[
         stays = clause.deed == st.Verb.STAND or timed or not (ends_there or fast)
         text, at = story.text, measure.quote or clause.quote
         aside = text[: at.start].rstrip().endswith(",") and "," in text[at.end : clause.quote.end]
-        apart = measure.quantity in (st.Quantity.GAP, st.Quantity.FREE_SPACE) and "apart" in clause.notes
+        apart = measure.quantity in (st.Quantity.GAP, st.Quantity.FREE_SPACE) and "distance" in clause.notes
         if rests and (aside or apart or "between" in clause.notes):
             here = ["where it begins to brake", "where it stands"]  # "brakes, 8 m before it, to standstill"
             stays = story.ask(f"where {at.start}", f"What is '{at.text}'?", here, None, at) == here[0]

@@ -19,6 +19,7 @@ from scenewright.translate.read.chunks import Chunk
 from scenewright.translate.read.clauses import BETWEEN_TWO, IT, PEOPLE, Clause, Taken, Target
 
 _BARE = {side: op for op, side in SIDES.items()} | {"to": "==", "behind": "<"}  # a side and a place, without an amount
+# What says something of somebody: an amount beside a bare name does not.
 _VERBS = ("be", "state", "event", "deed", "phase", "turn", "kept", "order", "quantity", "possessive")
 _TO_PLACE = ("before", "behind", "from", "to", "ahead", "of")
 _CONTRARY = ((st.Verb.BRAKE, "acceleration"), ("stop", "acceleration"), (st.Verb.SPEED_UP, "deceleration"))
@@ -32,7 +33,7 @@ def read_clause(chunks: Sequence[Chunk], people: Cast, subject: int | None = Non
         taken.at += 1
     _attach(taken)
     taken.clause.notes |= {"said"} if any(chunk.kind in _VERBS for chunk in chunks) else set()
-    taken.clause.notes |= {"apart"} if taken.quantities.get("length") else set()
+    taken.clause.notes |= {"distance"} if taken.quantities.get("length") else set()
     return taken.clause
 
 
@@ -111,15 +112,12 @@ def _placed(taken: Taken, at: int, make: Callable[[], None]) -> None:
     if clause.deed is None or at < 0:
         return
     made = [each for each in clause.measures[known:] if each.quantity is not st.Quantity.SPEED]
-    if taken.chunks[at : taken.deed_at] and made:  # "the car that is 30 m before it brakes to a stop"
+    between = taken.deed_at < at < taken.stands_at
+    if between and made and (clause.deed == "stop" or "standstill" in clause.flags):
+        clause.notes.add("between")  # "brakes 30 m before it to a stop"
+    elif between or at < taken.deed_at:  # "brakes 30 m before it to 4 m/s", "the car that is 30 m before it brakes"
         clause.measures = [each for each in clause.measures if each not in made]
         clause.begins += made
-    elif taken.deed_at < at < taken.stands_at and made:
-        if clause.deed == "stop" or "standstill" in clause.flags:
-            clause.notes.add("between")  # "brakes 30 m before it to a stop"
-        else:  # "brakes 30 m before it to 4 m/s"
-            clause.measures = [each for each in clause.measures if each not in made]
-            clause.begins += made
 
 
 def _find_subject(taken: Taken) -> None:

@@ -66,7 +66,9 @@ class Clause:
     facts: dict[str, str] = field(default_factory=dict)
     flags: set[str] = field(default_factory=set)
     relations: list[st.Relation] = field(default_factory=list)
-    notes: set[str] = field(default_factory=set)  # how it is said, which is no meaning: as an ``event``, as ``wanted``
+    # How it is said, which is no meaning by itself: as an ``event``, as ``wanted``; that it has a verb (``said``), is
+    # of two (``both``), began before (``at it``), names a ``distance``, or a place ``between`` deed and standstill.
+    notes: set[str] = field(default_factory=set)
 
     def says_more_than(self, *expected: str) -> bool:
         """Whether anything but these attributes is filled: what carries meaning must be used up."""

@@ -139,11 +139,12 @@ def _margins(chunks: list[Chunk]) -> list[Margin]:
     """Take amounts of time off the end of a segment: ``the ego turns at least 2 s | after ...``."""
     found: list[Margin] = []
     while chunks and (amount := chunks[-1].amount) is not None and amount.dimension == "time":
-        chunks.pop()
-        bound = chunks.pop().value if chunks and chunks[-1].kind == "bound" else "=="
-        if bound not in (*OPERATORS, "falls"):  # "about 2 s after"
-            fix = "say exactly how much, or at least or at most how much"
-            raise UnknownWordsError("it is not clear how much before or after this is", found=amount.unit, fix=fix)
+        last = chunks.pop()
+        lead = chunks.pop() if chunks and chunks[-1].kind == "bound" else None
+        bound = "==" if lead is None else lead.value
+        if lead is not None and bound not in (*OPERATORS, "falls"):  # "about 2 s after"
+            told, fix = f"{lead.text} {last.text}", "say exactly how much, or at least or at most how much"
+            raise UnknownWordsError("it is not clear how much before or after this is", found=told, fix=fix)
         found.insert(0, (OPERATORS["<=" if bound == "falls" else bound], amount))
         if not chunks or chunks[-1].value != "and":
             break
@@ -211,14 +212,13 @@ def _who_acts(parts: Sequence[Sequence[Chunk]]) -> int:
     """Return which of the parts between commas begins what happens: it begins with who does it, if anybody is named."""
     acts = [number for number, part in enumerate(parts) if any(chunk.kind in _ACTS for chunk in part)]
     names = [number for number, part in enumerate(parts) if _is_named(part)]
-    for number in acts[:1]:
-        before = takewhile(lambda each: each.kind not in _ACTS, parts[number])
-        if any(each.kind in PEOPLE for each in before):
-            break
-        earlier = [each for each in names if each < number]  # "the car, 30 m before the conflict point, brakes"
-        later = [each for each in names if each > number and each in acts]  # "when the car, ..., brakes, the truck ..."
-        return [*earlier[-1:], *later, number][0]
-    return next(iter(acts), len(parts) - 1)
+    first = next(iter(acts), len(parts) - 1)
+    before = takewhile(lambda each: each.kind not in _ACTS, parts[first])
+    if not acts or any(each.kind in PEOPLE for each in before):
+        return first
+    earlier = [each for each in names if each < first]  # "the car, 30 m before the conflict point, brakes"
+    later = [each for each in names if each > first and each in acts]  # "when the car, ..., brakes, the truck ..."
+    return next(iter((*earlier[-1:], *later)), first)
 
 
 def _is_named(part: Sequence[Chunk]) -> bool:
