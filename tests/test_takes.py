@@ -68,4 +68,4 @@ def test_whoever_only_came_late_has_an_ego_that_begins_slower(late_s: float, beg
         replace(each, error=late_s, miss=None) if each is late else each for each in result.verdict.conditions
     )
     result.verdict, result.status = replace(result.verdict, conditions=conditions), "failure"
-    assert next(iter(how_next(result, 2, 8.0))) == (begins_mps, 1.0)
+    assert next(iter(how_next(result, 2, 8.0))) == (begins_mps, 1.0, True)

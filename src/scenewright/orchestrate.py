@@ -85,7 +85,7 @@ def orchestrate(
     if isinstance(planned, str):
         result.status, result.no_plan = "gave up", planned
         return result
-    result.attempt = planned[2]
+    result.attempt, result.scene = planned[2], world.scene
     result.not_held = tuple(
         not_held(
             world.scene, result.attempt.plan.profiles, dimension_of, LOOSE.of, ego_promised=world.ego_bounds.holds_speed
@@ -146,6 +146,7 @@ def _drive(
     from scenewright.simulate.port import Start
 
     planner, start, result.attempt = planned
+    result.scene = world.scene
     with stages("simulate"):
         begin_at = Start.of(world.scene, world.ego, (start.s_m, start.speed_mps), planner.plan.profiles)
         result.run = simulate(world.simulator, begin_at, planner, world.rates, progress)
@@ -176,13 +177,15 @@ def _rehearse(
                 ways = (first_plan(world, drive, *wanted) for wanted in how_next(last, take, began_mps))
                 planned = next((each for each in ways if each is not None), None)
         except KeyboardInterrupt:  # what was driven is kept
-            return replace(best, takes=last.takes, status="interrupted")
+            last = replace(last, status="interrupted")
+            break
         if planned is None:
             break  # nothing to drive, however the take begins
         last = replace(first, take=take, takes=last.takes, hindsight=None)
         _drive(request, last, world, planned, stages, progress)
         if last.status in ("success", "failure"):
             best = max(best, last, key=partial(worth, request))
+    world.choose(best.scene.parameters)
     if best.run is not None and best.verdict is not None:
         best.run.findings += approach_of(best.scene, best.run.trace, best.verdict.facts).unnatural
     return replace(best, takes=last.takes, status=last.status if last.status == "interrupted" else best.status)
@@ -205,16 +208,17 @@ def _explain(request: Request, result: Result, world: World, stages: Stages) -> 
     if request.explain == "ways out":
         with stages("ways out"):
             found, tried = ways_out(
-                world.scene, result.verdict, _tolerance(request), partial(_happens, request), stages.say
+                world.scene, result.verdict, _tolerance(request), partial(_happens, request, world.scene), stages.say
             )
         result.verdict = replace(result.verdict, cause=replace(cause, would_do=found, tried=tried))
 
 
 def _happens(
-    request: Request, program: Program, parameters: Mapping[str, float], progress: Callable[[float], None]
+    request: Request, scene: Scene, program: Program, parameters: Mapping[str, float], progress: Callable[[float], None]
 ) -> bool:
-    """Whether another program, or other parameters, are judged a success in their first take."""
-    values = {**request.parameters, **parameters}
+    """Whether another program, or parameters that are otherwise than in `scene`, are a success in their first take."""
+    known = {each.name: scene.parameters[each.name] / each.unit.si_factor for each in scene.program.parameters}
+    values = {name: float(value) for name, value in known.items()} | dict(parameters)
     other = replace(request, source=print_program(program), parameters=values, out=None, takes=1, explain="nothing")
     try:
         tried = orchestrate(other, progress=progress)

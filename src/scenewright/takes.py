@@ -34,7 +34,7 @@ def worth(request: Request, result: Result) -> tuple[int, bool]:
     return held, not approach_of(result.scene, run.trace, verdict.facts).unnatural
 
 
-def how_next(result: Result, take: int, began_mps: float) -> Iterable[tuple[float, float]]:
+def how_next(result: Result, take: int, began_mps: float) -> Iterable[tuple[float, float, bool]]:
     """Return how the next take may begin, in the order in which it is tried.
 
     Parameters
@@ -49,15 +49,17 @@ def how_next(result: Result, take: int, began_mps: float) -> Iterable[tuple[floa
     Returns
     -------
     Iterable
-        How slow the ego has to start at least (m/s), and the share of its speed at which heroes come.
+        How slow the ego has to start at least (m/s), the share of its speed at which heroes come, and whether values
+        that were left open are to be others.
     """
-    only_outcome = _missed_only_outcome(result)
+    missed = _missed(result)
+    only_outcome = {condition.kind for condition in missed} == {"outcome"}
     pace = _PACES[take % len(_PACES)] if take > 2 and result.status == "failure" and not only_outcome else 1.0
     slower_than_mps = math.inf
     if only_outcome:  # a slower ego leaves more time for it; where it was far from enough, much slower
-        late_s = max(condition.error or 0.0 for condition in _missed(result))
+        late_s = max(condition.error or 0.0 for condition in missed)
         slower_than_mps = began_mps if late_s < _MUCH_TOO_LATE_S else _MUCH_SLOWER * began_mps
-    return dict.fromkeys([(slower_than_mps, pace), (math.inf, 1.0)])
+    return dict.fromkeys([(slower_than_mps, pace, bool(missed)), (math.inf, 1.0, bool(missed))])
 
 
 def _levels(request: Request) -> list[str]:
@@ -70,7 +72,3 @@ def _missed(result: Result) -> list[Condition]:
     """Return the conditions that a take missed even at the loose tolerance."""
     assert result.verdict is not None
     return [condition for condition in result.verdict.conditions if not condition.holds_at(LOOSE)]
-
-
-def _missed_only_outcome(result: Result) -> bool:
-    return {condition.kind for condition in _missed(result)} == {"outcome"}

@@ -44,7 +44,13 @@ A1v(3.5) >= 2
 AT_TIMES = (
     STORIES["yields, distance"] + "A1v(2.0) == 4\nA1v(A0(t2)) == 0\nA1x(1.5) <= conflict_point - 25\nA1a(t1) <= -1\n"
 )
-PROGRAMS = {**STORIES, "waits twice": WAITS_TWICE, "at times": AT_TIMES}
+LEFT_OPEN = (
+    STORIES["yields, distance"]
+    .replace("intersection - 90", "intersection - begins_m")
+    .replace("point - 30", "point - ego_m")
+    .replace("point - 18", "point - hero_m")
+)
+PROGRAMS = {**STORIES, "waits twice": WAITS_TWICE, "at times": AT_TIMES, "left open": LEFT_OPEN}
 TABLE = [(name, at_s) for name in PROGRAMS for at_s in (0.0, 1.2)]
 every_problem = pytest.mark.parametrize(("name", "at_s"), TABLE)
 

@@ -40,6 +40,23 @@ A0x(t2) == conflict_point
 A1(t2) < A0(t2)
 """,
 )
+# Against an ego that is about to arrive everyday distances leave the hero no time to be first.
+LEFT_OPEN = IN_TIME.replace("point - 22", "point - ego_m").replace("point - 14", "point - hero_m")
+# With 3 s for both the ego gives way to the hero, and stands.
+GIVES_WAY = program(
+    "W",
+    "t0, go, t1, acc, t2",
+    """
+tta(A0, intersection, t0) == 8
+A0(t1) == A1(t1)
+tta(A0, conflict_point, t1) == ego_s
+tta(A1, conflict_point, t1) == hero_s
+A1x(t2) == conflict_point
+A0x(t2) == turn_start
+A1(t2) < A0(t2)
+""",
+    ego_route="E, N",
+)
 
 
 def world_of(text: str, ego: str = "constant") -> World:
@@ -66,6 +83,51 @@ def test_the_first_start_that_does_is_taken(ego: str) -> None:
     assert [record.time_s for record in planner.records] == [0.0]
     ego_motion = attempt.plan.profiles[EGO]
     assert ego_motion.state(0.0)[:2] == pytest.approx((start.s_m, start.speed_mps))
+
+
+@pytest.mark.parametrize("ego", ["constant", "idm", "staller"])
+def test_values_that_were_left_open_are_such_that_a_plan_does_what_is_asked(ego: str) -> None:
+    world = world_of(LEFT_OPEN, ego)
+    found = first_plan(world)
+    assert found is not None
+    assert (found[2].is_good, found[2].promises_outcome) == (True, True)
+    values = world.scene.parameters
+    assert {name: (100 * value).denominator for name, value in values.items()} == {"ego_m": 1, "hero_m": 1}
+    assert world.planned.parameters == found[0].scene.parameters == values
+    fixed = "".join(f" -p {name}={float(value)}" for name, value in values.items())
+    as_given = orchestrate(Request(LEFT_OPEN, parameters={k: float(v) for k, v in values.items()}, ego=ego))
+    assert as_given.status == "success", fixed
+
+
+def test_a_value_that_was_given_is_never_another() -> None:
+    world, _, _ = begin(Request(LEFT_OPEN, parameters={"hero_m": 16.0}, ego="idm"), Stages(None))
+    first_plan(world, anew=True)
+    assert world.scene.parameters["hero_m"] == 16
+    assert "ego_m" in world.scene.parameters
+    given = {"hero_m": 14.0, "ego_m": 22.0}  # as above, where a slow ego is the only way
+    world, _, _ = begin(Request(LEFT_OPEN, parameters=given, ego="constant"), Stages(None))
+    first_plan(world, anew=True)
+    assert world.scene.parameters == given
+
+
+def test_whoever_stops_the_search_for_values_has_those_that_were_driven(monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupt(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    world = world_of(LEFT_OPEN, "idm")
+    before = world.scene
+    monkeypatch.setattr(beginning, "rounded", interrupt)
+    with pytest.raises(KeyboardInterrupt):
+        first_plan(world, anew=True)
+    assert world.scene == before
+
+
+def test_values_that_missed_though_a_plan_promised_them_are_others_in_the_next_take() -> None:
+    first, result = (orchestrate(Request(GIVES_WAY, ego="idm", takes=takes)) for takes in (1, 3))
+    assert (first.status, result.status) == ("failure", "success")
+    assert result.take > 1
+    assert result.scene.parameters != first.scene.parameters
+    assert result.scene.parameters["ego_s"] > result.scene.parameters["hero_s"]
 
 
 def test_an_ego_that_would_leave_no_time_starts_more_slowly() -> None:

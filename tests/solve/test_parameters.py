@@ -15,7 +15,7 @@ from scenewright.program.types import Parameter
 from scenewright.roads import load_map
 from scenewright.roads.grounding import ground
 from scenewright.solve.feasibility import Question
-from scenewright.solve.parameters import everyday_value, settle
+from scenewright.solve.parameters import everyday, everyday_value, rounded, settle
 from scenewright.units import pin
 
 T = load_map("t_intersection")
@@ -30,6 +30,19 @@ def test_everyday_values_lie_in_their_range(name: str, ends: tuple[Fraction, Fra
     parameter = Parameter(name, None, low, high)
     least, most = parameter.bounds()
     assert least <= everyday_value(parameter) / parameter.unit.si_factor <= most
+
+
+@given(found=st.floats(0.0, 60.0), digits=st.integers(0, 3))
+def test_values_are_round_in_their_own_unit_and_stay_in_their_range(found: float, digits: int) -> None:
+    program = parse_program("parameters:\n- slow_kmph in [20, 50.25]\n" + YIELDS.text + "A1v(t1) == slow_kmph\n")
+    scene = ground(program, T, YIELDS.parameters)
+    chosen = rounded(scene, {"slow_kmph": found}, digits)
+    assert not chosen.open_parameters()
+    kmph = chosen.parameters["slow_kmph"] * Fraction(18, 5)
+    assert kmph in (20, Fraction("50.25")) or (kmph * 10**digits).denominator == 1
+    assert abs(kmph - min(max(Fraction(found) * Fraction(18, 5), 20), Fraction("50.25"))) <= Fraction(1, 2 * 10**digits)
+    given = {name: value for name, value in chosen.parameters.items() if name != "slow_kmph"}
+    assert given == scene.parameters == {k: v for k, v in everyday(scene).parameters.items() if k in given}
 
 
 @pytest.mark.parametrize("tight", [False, True])

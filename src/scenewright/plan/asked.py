@@ -20,6 +20,7 @@ from scenewright.algebra.polynomials import Atom, Polynomial, TooHigh
 from scenewright.motion.limits import Limits, Signs
 from scenewright.plan.preferences import preferences_of
 from scenewright.plan.triggers import adapts_until, beside_others
+from scenewright.program.expressions import ParameterRef, walk
 from scenewright.program.structure import (
     Structure,
     actors_of,
@@ -33,6 +34,7 @@ from scenewright.roads.grounding import Scene
 from scenewright.roads.model import RoadMap
 from scenewright.roads.routes import Route
 from scenewright.roads.turns import TurnSpan
+from scenewright.solve.parameters import everyday_value
 from scenewright.solve.proofs.events import EgoBounds, Events
 from scenewright.solve.proofs.forms import free_actors, lasting_places
 from scenewright.solve.proofs.lowering import Lowering
@@ -71,13 +73,20 @@ class Asked:
         self.beside = frozenset(beside_others(scene.program, structure))
         self.wanted = preferences_of(scene.program.manner)
         self.events = Events(scene, limits, EgoBounds())
+        # What is usual for parameters that are still open (SI), by number.
+        self.everyday = {
+            self.events.parameters[each.name].number: float(everyday_value(each)) for each in scene.open_parameters()
+        }
         self.lowering = Lowering(self.events)
         self.looks, self.stretches = self._make_looks()
         at_triggers = {key for instant in structure.triggers.values() for key in instant}
-        constraints = tuple(  # what is asked of the ego alone is nobody's to plan, unless it tells when a trigger comes
+        still_open = {each.name for each in scene.open_parameters()}
+        constraints = tuple(  # what is asked of the ego alone is nobody's to plan, unless it tells of what is
             c
             for c in scene.program.constraints
-            if actors_of(c.formula) != {EGO} or set(knots_of(c.formula)) & at_triggers
+            if actors_of(c.formula) != {EGO}
+            or set(knots_of(c.formula)) & at_triggers
+            or any(isinstance(node, ParameterRef) and node.name in still_open for node in walk(c.formula))
         )
         lowered = self.lowering.lower(constraints)
         self._formulas = Compiled([each.formula for each in (*lowered, *self.events.rules)], self.size)

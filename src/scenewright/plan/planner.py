@@ -252,8 +252,7 @@ class Planner(Standing):
             )
         names = self.scene.program.ego.sketch.knots
         profiles[EGO] = Profile(prediction.segments, {name: times[self._asked.knot(EGO, name)] for name in names})
-        parameters = {name: float(value) for name, value in self.scene.parameters.items()}
-        plan = Plan(profiles, solution.missed.by, parameters)
+        plan = Plan(profiles, solution.missed.by, problem.parameters(solution.z))
         return _Found(plan, solution, dict(enumerate(times)), problem.others(solution.z), problem, self._meetings)
 
     @property

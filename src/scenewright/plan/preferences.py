@@ -50,6 +50,8 @@ class Preferences:
     sure_order_most: float = 30.0
     # A trigger of which both decide when it comes: what a second off its planned instant costs.
     punctual_weight: float = 0.7
+    # What it costs to take twice an everyday value, or none of it, for a parameter that is left open; chosen.
+    everyday_weight: float = 1.0
     # -- manner ------------------------------------------------------------------------------------------------------
     # More than the program's manner asks for, so that samples and rounding do not decide.
     least_rate_mpss: float = 0.62

@@ -46,6 +46,9 @@ class Problem(Unknowns):
             moment = self.moments[instant]
             if moment.unknown is not None:
                 costs.add(moment.value(z) - planned_s, moment.slope(self.size), self.asked.wanted.punctual_weight)
+        for number, everyday in self.asked.everyday.items():
+            unknown, weight = self._others[number], self.asked.wanted.everyday_weight / max(1.0, abs(everyday))
+            costs.add(z[unknown] - everyday, np.eye(self.size)[unknown], weight)
         for first, second in pairwise(self._ego_moments):  # heroes' are apart by what pieces last
             slope = first.slope(self.size) - second.slope(self.size)
             if np.any(slope):

@@ -25,6 +25,7 @@ from scenewright.program.structure import Role, Structure, actors_of, knots_of, 
 from scenewright.program.types import EGO, Actor, PieceKind
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import LinearCondition, linear_conditions
+from scenewright.solve.parameters import everyday
 from scenewright.solve.plan import Plan
 from scenewright.solve.proofs.forms import free_actors, lasting_places
 from scenewright.solve.proofs.witness import Witness
@@ -87,7 +88,7 @@ class Standing:
             self._reactive[hero] = [*self._reactive_pieces(actor, actor.sketch.knot_index(until))]
         self._times = TriggerTimes(self.scene, self.structure, self.conditions)
         signs = signs or Signs.of(self.scene.routes[EGO], self.scene.road_map)
-        told = linear_conditions(self.scene, self.structure, with_bounds=True)
+        told = linear_conditions(everyday(self.scene), self.structure, with_bounds=True)  # sides, as with any values
         self._ego = Foresight(self.scene, self.structure, told, predictor, behind or predictor, signs)
 
     def observe(self, sample: EgoSample) -> None:

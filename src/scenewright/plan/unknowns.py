@@ -153,9 +153,9 @@ class Unknowns:
         asked = self.asked
         states = [value for state in asked.events.states.values() for value in (state.place, state.speed)]
         values = [*asked.events.times, *states, *asked.lowering.rates.values()]
-        known = {number_of(value) for value in values}
+        known, guesses = {number_of(value) for value in values}, asked.everyday | dict(self.now.others)
         return {
-            number: self._new(self.now.others.get(number, 0.0), float(unknown.low), float(unknown.high), _STEP_OTHER)
+            number: self._new(guesses.get(number, 0.0), float(unknown.low), float(unknown.high), _STEP_OTHER)
             for number, unknown in enumerate(asked.events.unknowns)
             if number not in known
         }
@@ -274,6 +274,12 @@ class Unknowns:
     def others(self, z: Array) -> dict[int, float]:
         """Return the values of what is neither a time nor a state nor a rate, by its number."""
         return {number: float(z[unknown]) for number, unknown in self._others.items()}
+
+    def parameters(self, z: Array) -> dict[str, float]:
+        """Return the values of the program's parameters (SI), those that are still open among them."""
+        numbers = {name: number_of(value) for name, value in self.asked.events.parameters.items()}
+        known = self.asked.scene.parameters
+        return {name: float(known[name]) if k is None else float(z[self._others[k]]) for name, k in numbers.items()}
 
     def ordered(self, z: Array) -> Array:
         """Return values within their bounds in which everybody's knots come one after another."""

@@ -34,6 +34,7 @@ from scenewright.simulate.port import Start
 from scenewright.simulate.world import World
 from scenewright.solve.arrival import linear_conditions, of_ego
 from scenewright.solve.holding import not_held
+from scenewright.solve.parameters import everyday, rounded
 from scenewright.solve.proofs.decide import Question, shown
 from scenewright.solve.proofs.forms import TIGHT, compared_dimension
 from scenewright.units import pin
@@ -42,14 +43,20 @@ from scenewright.units import pin
 _SAME_ROAD_M = 1.0
 # Newton steps after which nothing but a last resort is tried: of 160 cases of the benchmark none did well after more.
 _MOST_STEPS = 700
+_DIGITS = 0, 1, 2  # of values that are chosen anew: as round as they can be
 _GUESSES = 12  # from which a witness is sought in which the ego holds its speed; of what can happen 29 in 30 take six
 
 
 def first_plan(
-    world: World, drive: Profile | None = None, slower_than_mps: float = math.inf, pace: float = 1.0
+    world: World,
+    drive: Profile | None = None,
+    slower_than_mps: float = math.inf,
+    pace: float = 1.0,
+    anew: bool = False,
 ) -> tuple[Planner, EgoFirstState, Attempt] | None:
     """Choose the ego's first state and plan from it; where several states may be chosen, the first that plans well.
 
+    Where none does, parameters that were left open are unknowns of a plan, and take the values that it comes to.
     None where the ego cannot start slower than it must.
 
     Parameters
@@ -58,22 +65,51 @@ def first_plan(
         How the ego drove in the last take; None in the first.
     pace
         The share of their speed at which heroes come to their triggers.
+    anew
+        Whether these values have missed, though a plan promised that they would do.
     """
     limits = {actor: own if actor == EGO else own.at_pace(pace) for actor, own in world.limits.items()}
-    plan, steps, best = partial(_Planned, world, limits, drive), 0, None
+    plan = partial(_Planned, world, limits, drive)
+    best, chosen = _best_plan(world, plan, slower_than_mps), world.scene.parameters
+    left_open = replace(world.planned, parameters=world.given)
+    if best is None or (best.promises and not anew) or not left_open.open_parameters():
+        return None if best is None else best.begun
+    try:
+        world.choose(everyday(left_open).parameters)
+        free = _best_plan(world, plan, slower_than_mps, left_open) or best
+        for digits in _DIGITS:
+            world.choose(rounded(left_open, free.attempt.plan.parameters, digits).parameters)
+            again = _best_plan(world, plan, slower_than_mps)
+            if again is not None and (again.rank < best.rank or (anew and again.promises)):
+                best, chosen = again, world.scene.parameters
+            if again is best and best.promises:
+                break
+    finally:
+        world.choose(chosen)
+    return best.begun
+
+
+def _best_plan(
+    world: World,
+    plan: Callable[[Scene, EgoFirstState], _Planned],
+    slower_than_mps: float,
+    scene: Scene | None = None,
+) -> _Planned | None:
+    """Return the first plan that does all, else the best one, for what is planned in the world, or another scene."""
+    steps, best, scene = 0, None, scene or world.planned
     for start in first_states(world):
         # An ego that does not hold its speed may still let come about what no plan promises.
         if start.last_resort and best is not None and best.is_good and not world.ego_bounds.holds_speed:
             break
         if start.speed_mps >= slower_than_mps or (steps > _MOST_STEPS and not start.last_resort):
             continue
-        found = _plan_from(world, start, plan)
+        found = _plan_from(world, start, scene, plan)
         steps += found.attempt.steps
         if best is None or found.rank < best.rank:
             best = found
-        if found.is_good and found.attempt.promises_outcome:
+        if found.promises:
             break
-    return (best.planner, best.start, best.attempt) if best is not None else None
+    return best
 
 
 class _Planned:
@@ -96,12 +132,22 @@ class _Planned:
         self.saved_from, self.touches = _saved_and_touched(world, start, self.attempt)
         # Of an ego that holds its speed the start decides what it does at any moment.
         broken = not_held(scene, motions, compared_dimension, lambda dimension: float(TIGHT[dimension or "time"]))
-        self.breaks = world.ego_bounds.holds_speed and any(True for _ in broken)
+        self.breaks = world.ego_bounds.holds_speed and not scene.open_parameters() and any(True for _ in broken)
+
+    @property
+    def begun(self) -> tuple[Planner, EgoFirstState, Attempt]:
+        """The planner that goes on from here, the ego's first state, and what the first plan came to."""
+        return self.planner, self.start, self.attempt
 
     @property
     def is_good(self) -> bool:
         """Whether it does what was asked, nobody is saved or touched, and all is seen."""
         return self.attempt.is_good and not (self.saved_from or self.touches or self.too_soon or self.breaks)
+
+    @property
+    def promises(self) -> bool:
+        """Whether it leads to the outcome too."""
+        return self.is_good and self.attempt.promises_outcome
 
     @property
     def rank(self) -> tuple[bool, bool, float, float]:
@@ -112,23 +158,25 @@ class _Planned:
         return bool(self.saved_from) or self.touches, falls_short, late_s, missed
 
 
-def _plan_from(world: World, start: EgoFirstState, plan: Callable[[Scene, EgoFirstState], _Planned]) -> _Planned:
+def _plan_from(
+    world: World, start: EgoFirstState, scene: Scene, plan: Callable[[Scene, EgoFirstState], _Planned]
+) -> _Planned:
     """Plan from a start; where the ego would begin too near to somebody and brake hard, from further away.
 
     Likewise where its outcome would come too soon, as far as neither the ego's start nor the trigger of a hero tells
     where the ego is.
     """
-    found, first = plan(world.planned, start), {(EGO, world.scene.program.ego.sketch.knots[0])}
+    found, first = plan(scene, start), {(EGO, world.scene.program.ego.sketch.knots[0])}
     late_s, told = found.attempt.missed.late_s, first.union(*world.structure.triggers.values())
     if late_s > 0.0 and found.attempt.is_good:
         conditions = linear_conditions(world.scene, world.structure)
         if not any(EGO in each.weights and each.moments & told for each in conditions):
             sooner_m = (late_s + Preferences().order_s) * start.speed_mps
-            later = plan(world.planned, replace(start, s_m=max(0.0, start.s_m - sooner_m)))
+            later = plan(scene, replace(start, s_m=max(0.0, start.s_m - sooner_m)))
             found = min(found, later, key=lambda each: each.rank)
     if not found.saved_from:
         return found
-    return plan(_kept_apart(world.planned, found.saved_from, start.speed_mps), found.start)
+    return plan(_kept_apart(scene, found.saved_from, start.speed_mps), found.start)
 
 
 def _foreseen(world: World, start: EgoFirstState, drive: Profile | None) -> tuple[Predictor, Predictor, Signs]:
@@ -152,7 +200,7 @@ def _foreseen(world: World, start: EgoFirstState, drive: Profile | None) -> tupl
 def _saved_and_touched(world: World, start: EgoFirstState, attempt: Attempt) -> tuple[list[int], bool]:
     """Return the heroes ahead of it, if the ego's policy brakes hard at once, and whether it touches one.
 
-    Not those that the program asks to begin so.
+    Nobody is saved from those that the program asks to begin so.
     """
     scene, ahead, touches = world.scene, list[int](), False
     heroes = {hero.id: attempt.plan.profiles[hero.id] for hero in scene.program.heroes}
@@ -160,7 +208,7 @@ def _saved_and_touched(world: World, start: EgoFirstState, attempt: Attempt) -> 
     ego = begins.first[EGO]
     for hero in heroes:
         offset_m, there = shared_offset_m(scene.routes[EGO], scene.routes[hero]), begins.first[hero]
-        if offset_m is None or says_how_near(scene.program, world.structure, EGO, hero):
+        if offset_m is None:
             continue
         ahead_m = there.s_m + offset_m - ego.s_m
         # Who is still on another road is further away than along the road that the two will share.
@@ -168,7 +216,7 @@ def _saved_and_touched(world: World, start: EgoFirstState, attempt: Attempt) -> 
             continue
         if abs(ahead_m) < VEHICLE_LENGTH_M:
             touches = True
-        elif ahead_m > 0.0:
+        elif ahead_m > 0.0 and not says_how_near(scene.program, world.structure, EGO, hero):
             ahead.append(hero)
     return (ahead if ahead and _brakes_hard(begins, heroes, world.rates.step_s) else []), touches
 

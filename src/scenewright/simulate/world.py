@@ -5,6 +5,10 @@ What enters: a scene and how it is to be run. What leaves: a `World`. Nothing is
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import replace
+from fractions import Fraction
+
 from scenewright.drive.guarded import GuardedPolicy
 from scenewright.drive.loading import load_policy
 from scenewright.motion.limits import Limits, Signs, limits_on
@@ -36,6 +40,8 @@ class World:
         The scene as heroes are planned in it: what lasts is decided.
     witness
         How it can happen, if a check has found that.
+    given
+        The parameters to which somebody gave a value: those of all others may be chosen, and chosen again.
     alone
         How the ego drives alone from first states that it was driven from; None where it drives otherwise each time.
 
@@ -58,6 +64,7 @@ class World:
         self.scene = self.planned = scene
         self.witness: Witness | None = None
         self.alone: dict[EgoFirstState, Rehearsed | None] = {}
+        self.given = scene.parameters
         self.rates = rates
         self.policy = load_policy(ego)
         guarded = GuardedPolicy(self.policy.policy, self.policy.name)
@@ -84,3 +91,7 @@ class World:
         self.witness = answer.witness
         self.planned = planned_for(self.scene, self.witness)
         return answer
+
+    def choose(self, parameters: Mapping[str, Fraction]) -> None:
+        """Let all parameters have other values (SI)."""
+        self.scene, self.planned = (replace(scene, parameters=parameters) for scene in (self.scene, self.planned))

@@ -1,7 +1,8 @@
 """Chooses the parameters that the user left open: everyday values first, and where those clash what the solver finds.
 
 What enters: a scene with open parameters. What leaves: the same scene with every parameter set. A model of the solver
-sits in a corner of what is possible (3 m, 0.05 s); a test engineer who gave no number expects an unremarkable one.
+sits in a corner of what is possible (3 m, 0.05 s); a test engineer who gave no number expects an unremarkable one. What
+comes of it is a beginning: who plans against an ego may choose others.
 """
 
 from __future__ import annotations
@@ -30,25 +31,36 @@ def settle(question: Question, explain: bool = True) -> tuple[Scene, Feasibility
     Everyday values are taken where the scenario is possible with them; else those of a motion found with all of them
     free, rounded as far as it stays possible. Where there is none the answer is that for all values.
     """
-    scene, open_parameters = question.scene, question.scene.open_parameters()
-
-    def with_values(values: Mapping[str, Fraction]) -> tuple[Scene, Feasibility]:
-        settled = replace(scene, parameters={**scene.parameters, **values})
-        return settled, check_feasibility(replace(question, scene=settled), explain=False)
-
-    if not open_parameters:
-        return scene, check_feasibility(question, explain)
-    everyday, answer = with_values({parameter.name: everyday_value(parameter) for parameter in open_parameters})
+    if not question.scene.open_parameters():
+        return question.scene, check_feasibility(question, explain)
+    settled = everyday(question.scene)
+    answer = check_feasibility(replace(question, scene=settled), explain=False)
     if answer.answer == "feasible":
-        return everyday, answer
+        return settled, answer
     found = check_feasibility(question, explain)
     if found.answer != "feasible":
-        return everyday, found
+        return settled, found
     for digits in _DIGITS:
-        settled, answer = with_values({name: round(value, digits) for name, value in found.parameters.items()})
+        settled = rounded(question.scene, found.parameters, digits)
+        answer = check_feasibility(replace(question, scene=settled), explain=False)
         if answer.answer == "feasible":
             return settled, answer
-    return replace(scene, parameters={**scene.parameters, **found.parameters}), found
+    return replace(settled, parameters={**settled.parameters, **found.parameters}), found
+
+
+def everyday(scene: Scene) -> Scene:
+    """Return a scene with everyday values for the parameters that are open."""
+    values = {each.name: everyday_value(each) for each in scene.open_parameters()}
+    return replace(scene, parameters={**scene.parameters, **values})
+
+
+def rounded(scene: Scene, values: Mapping[str, Fraction] | Mapping[str, float], digits: int) -> Scene:
+    """Return a scene with values (SI) for the parameters that are open, with so many decimals in their own units."""
+    found = dict(scene.parameters)
+    for each in scene.open_parameters():
+        (low, high), factor = each.bounds(), each.unit.si_factor
+        found[each.name] = min(max(round(Fraction(values[each.name]) / factor, digits), low), high) * factor
+    return replace(scene, parameters=found)
 
 
 def everyday_value(parameter: Parameter) -> Fraction:
