@@ -29,6 +29,20 @@ from scenewright.program.text import parse_program
 from scenewright.trace.model import Trace
 
 
+@pytest.mark.parametrize(("least_s", "met"), [(3.0, True), (3.0 + 1e-6, True), (3.3, True), (4.0, False)])
+def test_a_time_that_falls_no_further_was_met_where_it_was_least(least_s: float, met: bool) -> None:
+    """Who begins to brake has the least time to its place just then: whether that is reached is no matter of digits."""
+    begins_s, mps = 4.0, 10.0
+    told = "A0x(t1) == stop_line - 18\nA1v(t1) == 10\ntta(A1, stop_line, t1) == 3\nA1v(t2) == 0"
+    hero = Motion(90.0 - mps * (least_s + begins_s), mps, [(begins_s, 0.0), (9.0, -5.0)])
+    play = replace(YIELDS, text=text("[t0, go, t1, dec, t2]", told), hero=hero)
+    found = judge(play.case())
+    if met:
+        assert found.facts["knot_times_s"]["hero"]["t1"] == pytest.approx(begins_s, abs=1e-3)
+    assert found.condition("c3").holds_at(LOOSE) is met
+    assert found.condition("c3").holds_at(TIGHT) is (least_s < 3.1)
+
+
 @settings(max_examples=40)
 @given(
     ego_mps=st.floats(3, 15),

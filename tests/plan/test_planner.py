@@ -59,6 +59,8 @@ A1v(t2) == 0
 STEP_S = 0.005
 ROWS = [row for row in benchmark_rows() if row.id % 6 == 0]
 
+PLACED = "A0(t1) == A1(t1)\nA0x(t1) == stop_line - 60"
+
 
 @cache
 def planned(source: str, parameters: tuple[tuple[str, float | str], ...], ego: str) -> tuple[Scene, Attempt, Planner]:
@@ -385,6 +387,42 @@ def test_a_trigger_does_not_come_before_it_can_be_seen_what_was_before() -> None
     two = "A0(t1) == A1(t1)\ngap(A0, A1, t1) == 40\ngap(A0, A1, A1(t2)) == 20\nA1v(t2) == 6"
     result = orchestrate(Request(program("W", "t0, go, t1, dec, t2", two), ego="idm", takes=1))
     assert result.status == "success"
+
+
+@pytest.mark.parametrize(
+    ("sketch", "rest"),
+    [
+        ("t0, go, t1", "A0x(t2) == stop_line\nA1x(t1) == stop_line\nA1(t1) - A0(t2) == 1.5"),
+        ("t0, go, t1, dec, t2", f"{PLACED}\nA1v(t2) == 0\neventually[A1(t1), A1(t2)] (A1a <= -4)"),
+        ("t0, go, t1, acc, t2", f"{PLACED}\nA1v(t1) == 4\nA1v(t2) == 10\neventually[A1(t1), A1(t2)] (A1a >= 3.5)"),
+        ("t0, go, t1, dec, t2", f"{PLACED}\nA1v(t2) == 4\nalways[-5, -1] (A1v >= 100)"),
+        ("t0, go, t1, dec, t2", f"{PLACED}\nA1x(t0) == stop_line - 200\nA1x(t1) == stop_line - 30\nA1v(t2) == 0"),
+        (
+            "t0, go, t1, go, t2, dec, t3",
+            f"{PLACED}\nA1x(t1) == stop_line - 60\nA1x(t2) == stop_line - 30\nA1v(t2) == 10\nA1v(t3) == 3\n"
+            "A1x(t3) == stop_line\nA1(t3) - A1(t2) == 3.5",
+        ),
+    ],
+    ids=["after a moment of the ego's", "brakes hard once", "speeds up hard once", "over", "far off", "begins plainly"],
+)
+def test_whatever_can_plainly_be_done_is_done(sketch: str, rest: str) -> None:
+    result = orchestrate(Request(program("E", sketch, rest), ego="constant", takes=1))
+    assert result.status == "success"
+
+
+def test_somebody_may_do_nothing_in_particular() -> None:
+    text = program("E", "t0, go, t1, dec, t2", f"{PLACED}\nA1v(t2) == 0")
+    text = text.replace("\nConstraints", "\nActor 2 (other):\n- E, N\n- [t0]\n\nConstraints")
+    assert orchestrate(Request(text, ego="constant", takes=1)).status == "success"
+
+
+def test_it_is_noted_when_the_ego_passed_whatever_was_also_a_heros_moment() -> None:
+    text = program(
+        "W", "t0, go, t1, dec, t2", "A0(t1) == A1(t1)\ngap(A0, A1, t1) == 40\nA1v(t2) == 8\nA0(t2) == A1(t2)"
+    )
+    run = orchestrate(Request(text, ego="idm", takes=1)).run
+    assert run is not None
+    assert run.ego_knots_s["t2"] == run.last_plan.profiles[HERO].knot_times_s["t2"]
 
 
 @pytest.mark.parametrize("ego", ["idm", "stop-and-go"])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from contextlib import nullcontext
 from fractions import Fraction
 
 import pytest
@@ -13,7 +14,7 @@ from small_programs import FRAME
 from scenewright.errors import ProgramError
 from scenewright.program import expressions as ex
 from scenewright.program.check import check_program, check_values
-from scenewright.program.magnitudes import Magnitude, NoNumberError, check_numbers, magnitude
+from scenewright.program.magnitudes import LONGEST_S, Magnitude, NoNumberError, check_numbers, magnitude
 from scenewright.program.printer import print_expression
 from scenewright.program.text import parse_program
 from strategies import fractions, terms
@@ -86,6 +87,25 @@ def test_no_term_gets_larger_than_told_and_a_constant_is_what_it_is_worth(
 def test_how_large_a_term_may_get(term: str, most: Fraction, constant: Fraction | None) -> None:
     formula = parse_program(FRAME.format(f"always[0, 1]({term} == 0)")).constraints[0].formula
     assert magnitude(formula.body.left, {"a_m": Fraction(7)}) == Magnitude(Fraction(most), constant)  # type: ignore[union-attr]
+
+
+@pytest.mark.parametrize(
+    ("line", "late"),
+    [
+        ("A1v({}) == 0", True),
+        ("always[0, {}] (A1v >= 0)", True),
+        ("eventually[{}, A1(t1)] (A1v >= 0)", True),
+        ("A1(t1) <= {}", False),
+    ],
+)
+def test_no_moment_is_later_than_a_run_lasts(line: str, late: bool) -> None:
+    assert LONGEST_S == 120
+    for time in ("120", *(("60 + b_m",) if "[" in line else ())):
+        check_numbers(parse_program(FRAME.format(line.format(time))).constraints[0].formula, {"b_m": Fraction(60)})
+    for time in ("121", *(("60 + b_m",) if "[" in line else ())):
+        formula = parse_program(FRAME.format(line.format(time))).constraints[0].formula
+        with pytest.raises(NoNumberError, match="no run lasts for 121 s") if late else nullcontext():
+            check_numbers(formula, {"b_m": Fraction(61)})
 
 
 def test_the_fault_is_the_part_that_has_no_value() -> None:

@@ -204,6 +204,14 @@ def test_nobody_waits_for_the_ego_to_come_where_its_own_way_is_short(way_m: floa
     assert (lands["conflict_point"] - 30.0 - ego.s_m) / ego.speed_mps == pytest.approx(lead_s, abs=1e-4)
 
 
+@pytest.mark.parametrize("way_m", [150.0, 180.0])
+def test_who_begins_far_off_has_the_time_that_its_way_takes(way_m: float) -> None:
+    on = stage(f"A1x(t0) == conflict_point - 18 - {way_m}", "constant")
+    lead_s = usual_lead_s(on.scene, on.structure, on.limits, on.conditions)
+    assert lead_s == pytest.approx(way_m / on.limits[1].natural_approach_speed_mps)
+    assert lead_s > 8.0
+
+
 def test_who_is_to_stand_until_its_trigger_has_all_the_time() -> None:
     text = program("E, N", "t0, stop, t1, acc, t2", REST.replace("A1v(t2) == 0", "A1v(t2) == 5"))
     on = Stage(text, load_policy("constant").policy)

@@ -18,7 +18,7 @@ from scenewright.judge.formulas import miss_of
 from scenewright.judge.instants import Minimum, first_crossing, minima
 from scenewright.judge.phases import BRAKING, SPEEDING_UP, Phase, Sign, move_off_after, phase_at, rest_after
 from scenewright.judge.terms import Moments, Span, sides
-from scenewright.judge.tolerance import TIGHT, FloatArray, Values, normalised
+from scenewright.judge.tolerance import LOOSE, TIGHT, FloatArray, Values, normalised
 from scenewright.program.expressions import (
     Compare,
     Derived,
@@ -303,9 +303,11 @@ def _defined_time(
         if begins_s is not None and np.isfinite(begins_s):
             return begins_s, "free"
         return _reached_speed(case, part, key, after_s, knots), "free"
-    time_s = _place_time(case, part, key, after_s, knots)
+    time_s, relative = _place_time(case, part, key, after_s, knots), any(isinstance(n, Derived) for n in walk(part))
+    if relative:  # it may come to it, and turn just before: where it was met best is where it is judged
+        return time_s if np.isfinite(time_s) else _nearest_time(case, part, key, after_s, knots), "free"
     if np.isfinite(time_s):
-        return time_s, "free" if any(isinstance(node, Derived) for node in walk(part)) else "fixed"
+        return time_s, "fixed"
     nearest = np.abs(_level(case, part, key, knots, np.array([case.end_s])))  # who stops just short of it is there
     return time_s, "fixed" if nearest[0] > TIGHT.length_m else "free"
 
@@ -394,6 +396,17 @@ def _place_time(case: Case, part: Compare, key: KnotKey, after_s: float, knots: 
         if reached is not None:
             return reached
     return case.start_s if _was_past(case, part, key, knots) else np.inf
+
+
+def _nearest_time(case: Case, part: Compare, key: KnotKey, after_s: float, knots: dict[KnotKey, float]) -> float:
+    """Return when a comparison was met best, at the loose tolerance at least."""
+
+    def miss(time_s: FloatArray) -> FloatArray:
+        missed = normalised(miss_of(case, part, Moments({**knots, key: time_s})), LOOSE)
+        return np.asarray(np.broadcast_to(missed, time_s.shape), dtype=np.float64)
+
+    found = minima(miss, case.timelines[key[0]].instants(after_s, case.end_s))
+    return found[0].time_s if found and found[0].score <= 1 else np.inf
 
 
 def _was_past(case: Case, part: Compare, key: KnotKey, knots: dict[KnotKey, float]) -> bool:

@@ -183,8 +183,9 @@ class HeroRows:
                 _, v, _, d_v = self.shot.at_node(self.shot.first_node[number])
                 self.costs.add(v, d_v, price / _STILL_MPS)
         for number, leg in enumerate(legs[:-1]):
-            if self._sets_off(number):
-                self._begins(number, 1.0)
+            begins = 1.0 if self._sets_off(number) else _SENSE.get(leg.kind)
+            if number and begins is not None:  # the first has begun already
+                self._begins(number, begins)
             if sense := _SENSE.get(leg.kind):
                 least_mpss = self._faint(number) * self.asked.wanted.least_rate_mpss
                 short = least_mpss - sense * self.shot.z[list(leg.accels)]
@@ -215,7 +216,7 @@ class HeroRows:
             self.costs.add(lasts - usual_s, slope, wanted.stands_weight if stands else wanted.lasts_weight)
 
     def _at_trigger(self) -> None:
-        """Add that a hero drives at its trigger, is settled before it, and visibly begins what it is to do there."""
+        """Add that a hero drives at its trigger, and is not slower than people do."""
         wanted, shot = self.asked.wanted, self.shot
         number = self._trigger_leg()
         if number is None or number >= len(shot.legs) - 1:
@@ -231,10 +232,6 @@ class HeroRows:
             self.bounds.add(wanted.slowest_mps - v, -d_v, wanted.slowest_price)
             if self.hero.id not in self.asked.speed_told:
                 self.bounds.add(wanted.moves_mps - v, -d_v, wanted.price / _TIGHT_SPEED)
-        sense = _SENSE.get(begins.kind)
-        if sense is None:
-            return
-        self._begins(number, sense)
 
     def _not_before(self, number: int, sense: float) -> None:
         """Add that what begins with a leg is not plainly done before it, and hardly at all just before it."""

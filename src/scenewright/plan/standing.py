@@ -95,20 +95,24 @@ class Standing:
         """Take note of the ego's state after a step, and of the knots that it passed in it."""
         previous = self._ego.samples[-1]
         self._ego.samples.append(sample)
-        for hero, instant in self.structure.triggers.items():
-            planned = self.plan.profiles[hero].knot_times_s.get(self._name(hero))
-            if planned is not None and planned <= sample[0]:
-                for owner, name in instant:
-                    if owner == EGO:
-                        self.ego_knots_s.setdefault(name, planned)  # the moment is the same
-        knots = self.scene.program.ego.sketch.knots
-        for condition in self._times.ego_alone():
+        knots, passed_s = self.scene.program.ego.sketch.knots, self.plan.profiles[EGO].knot_times_s
+        for instant in (*self.structure.triggers.values(), *self.structure.instants):
+            planned = min(
+                (self.plan.profiles[o].knot_times_s.get(k, np.inf) for o, k in instant if o != EGO), default=np.inf
+            )
+            for owner, name in instant if planned <= sample[0] else ():
+                if owner == EGO:
+                    self.ego_knots_s.setdefault(name, planned)  # the moment is the same
+        for condition in self._times.ego_alone:
             knot = next(iter(condition.moments))[1]
-            if knot in self.ego_knots_s or any(k not in self.ego_knots_s for k in knots[: knots.index(knot)]):
+            earlier = [k for k in knots[: knots.index(knot)] if k not in self.ego_knots_s]
+            if knot in self.ego_knots_s or not self._times.told.isdisjoint(earlier):
                 continue
             before, after = (condition.value({EGO: state[1:3]}) for state in (previous, sample))
             if before != after and before * after <= 0:
-                self.ego_knots_s[knot] = previous[0] + before / (before - after) * (sample[0] - previous[0])
+                self.ego_knots_s[knot] = now_s = previous[0] + before / (before - after) * (sample[0] - previous[0])
+                for k in earlier:  # nothing tells when
+                    self.ego_knots_s[k] = min(passed_s.get(k, now_s), now_s)
 
     # -- what a plan starts from --------------------------------------------------------------------------------------
     def _first_situation(self, prediction: Profile, joint_s: float, guesses: Mapping[int, Profile]) -> Situation:
@@ -141,6 +145,9 @@ class Standing:
         for instant, at_s in self._moments_s.items():
             if instant not in knots:
                 expected.setdefault(instant, at_s)
+        for (first, last, _), made in self._asked.lowering.happens.items():
+            ends_s = [knots.get(end, expected.get(end, 0.0)) for end in (first, last)]
+            expected.setdefault(made, 0.5 * sum(ends_s))
         knots |= self._looks(0.0, {**expected, **knots})
         return Situation(
             0.0,

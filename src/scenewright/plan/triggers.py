@@ -37,23 +37,28 @@ class TriggerTimes:
     ----------
     ego_began
         The ego's position (m) and speed (m/s) when the run began.
+    ego_alone
+        Conditions on the ego alone at knots that it passes by itself (not those it shares with a hero's trigger).
+    told
+        The ego's knots that these tell, or that are others' moments.
     """
 
     scene: Scene
     structure: Structure
     conditions: tuple[LinearCondition, ...]
     ego_began: tuple[float, float] = (0.0, 0.0)
+    ego_alone: list[LinearCondition] = field(init=False)
+    told: set[str] = field(init=False)
     _sides: dict[int, LinearCondition | None] = field(init=False)  # of the ego, by hero: asked for at every tick
 
     def __post_init__(self) -> None:
         heroes = [hero for hero in self.scene.program.heroes if hero.id in self.structure.triggers]
         self._sides = {hero.id: self._side(hero) for hero in heroes}
-
-    def ego_alone(self) -> list[LinearCondition]:
-        """Conditions on the ego alone at knots that it passes by itself (not those it shares with a hero's trigger)."""
         shared = {key for instant in self.structure.triggers.values() for key in instant}
         own = {(EGO, name) for name in self.scene.program.ego.sketch.knots[1:]} - shared
-        return [c for c in self.conditions if set(c.weights) == {EGO} and c.moments <= own]
+        self.ego_alone = [c for c in self.conditions if set(c.weights) == {EGO} and c.moments <= own]
+        moments = shared.union(*self.structure.instants, *(c.moments for c in self.ego_alone))
+        self.told = {name for owner, name in moments if owner == EGO}
 
     def ego_decides(self, hero: Actor) -> bool:
         """Whether the ego alone decides when a hero's trigger comes."""
@@ -113,7 +118,7 @@ class TriggerTimes:
                 if owner == EGO:
                     knots[name] = instant_s
         order = self.scene.program.ego.sketch.knot_index
-        alone = ((next(iter(condition.moments))[1], condition) for condition in self.ego_alone())
+        alone = ((next(iter(condition.moments))[1], condition) for condition in self.ego_alone)
         for name, condition in sorted(alone, key=lambda each: order(each[0])):
             if name not in knots:
                 latest = max([time_s, *(at_s for known, at_s in knots.items() if order(known) < order(name))])

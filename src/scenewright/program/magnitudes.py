@@ -21,6 +21,8 @@ _LARGEST_TERM = Fraction(10**30)
 # What stands below a line may come near to zero in a scenario; that is the solver's and the judge's to see.
 _SMALLEST_DIVISOR = Fraction(1, 10**3)
 
+LONGEST_S = Fraction(120)  # that a run lasts
+
 Values = Mapping[str, Fraction]
 
 
@@ -49,11 +51,18 @@ def check_numbers(formula: ex.Formula, values: Values) -> None:
                     magnitude(side, values)
             case ex.Temporal(start=start, end=end):
                 for bound in (start, end):
-                    magnitude(bound, values)
+                    _check_time(bound, values)
             case ex.State(at=ex.Number() as at) | ex.Derived(at=ex.Number() as at):
-                magnitude(at, values)
+                _check_time(at, values)
             case _:
                 pass
+
+
+def _check_time(term: ex.Term, values: Values) -> None:
+    time_s = magnitude(term, values).constant
+    if time_s is not None and time_s > LONGEST_S:
+        expected = f"a time up to {LONGEST_S} s, or a knot of one who is there then"
+        raise NoNumberError(term, f"no run lasts for {float(time_s):g} s", f"{float(time_s):g} s", expected)
 
 
 def magnitude(term: ex.Term, values: Values) -> Magnitude:

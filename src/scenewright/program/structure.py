@@ -140,7 +140,7 @@ def standstills(program: Program, actor: int) -> set[str]:
 def stands_at_end(program: Program, actor: int) -> bool:
     """Whether a program ends with somebody standing: its last piece, or the speed that it is to have there, says so."""
     sketch = program.actor(actor).sketch
-    return sketch.pieces[-1] is PieceKind.STOP or sketch.knots[-1] in standstills(program, actor)
+    return sketch.pieces[-1:] == (PieceKind.STOP,) or sketch.knots[-1] in standstills(program, actor)
 
 
 def synchronised(formula: Formula) -> Iterator[tuple[KnotKey, KnotKey]]:

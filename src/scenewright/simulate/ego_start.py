@@ -135,9 +135,10 @@ def usual_lead_s(
 ) -> float:
     """Return how long before it comes to its first place an ego begins: no hero has to wait until it sets off.
 
-    A hero whose way to its trigger, from where it begins or its road does, is short would stand or creep on it.
+    A hero whose way to its trigger, from where it begins or its road does, is short would stand or creep on it; one
+    that is told to begin far from it takes its time.
     """
-    lead_s = _LEAD_S
+    lead_s, least_s = _LEAD_S, _LEAST_LEAD_S
     for hero in scene.program.heroes:
         instant, sketch = structure.triggers.get(hero.id, frozenset()), hero.sketch
         own = [c for c in conditions if set(c.weights) == {hero.id}]
@@ -150,9 +151,11 @@ def usual_lead_s(
         told_mps = (-c.constant / c.weights[hero.id][1] for c in own if c not in placed and c.moments == at_first)
         speed_mps = max(MOVING_MPS, next(told_mps, limits[hero.id].natural_turn_speed_mps))
         begins = next((c for c in placed if c.moments == at_first), None)
-        begins_m = 0.0 if begins is None else begins.place_m(hero.id, speed_mps)
-        lead_s = min(lead_s, (there.place_m(hero.id, speed_mps) - begins_m) / speed_mps)
-    return max(_LEAST_LEAD_S, lead_s)
+        way_m = there.place_m(hero.id, speed_mps) - (0.0 if begins is None else begins.place_m(hero.id, speed_mps))
+        lead_s = min(lead_s, way_m / speed_mps)
+        if begins is not None:
+            least_s = max(least_s, way_m / limits[hero.id].natural_approach_speed_mps)
+    return max(least_s, lead_s)
 
 
 def ego_starts(

@@ -11,12 +11,12 @@ from math import inf, isfinite
 from scenewright.motion.profile import Profile
 from scenewright.program import expressions as ex
 from scenewright.program.evaluate import term_value
+from scenewright.program.magnitudes import LONGEST_S
 from scenewright.program.structure import actors_of, knots_of, read_structure
 from scenewright.program.types import EGO, Program
 from scenewright.roads.grounding import Scene
 from scenewright.simulate.port import Snapshot
 from scenewright.solve.plan import PlanWorld
-from scenewright.solve.proofs.events import LONGEST_S
 
 LONGEST_RUN_S = float(LONGEST_S)  # what comes later is refuted before anything is driven
 # What is shown after the last knot, and how long an ego is waited for that has yet to pass, or that stands; chosen.

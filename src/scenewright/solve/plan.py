@@ -43,7 +43,7 @@ class Plan:
                 for knot, at_s in profile.knot_times_s.items()
                 for s_m, speed_mps, _ in [profile.state(at_s)]
             ]
-            pieces = (names[each.piece] if each.piece < len(names) else "go" for each in profile.segments)
+            pieces = (names[each.piece] if 0 <= each.piece < len(names) else "go" for each in profile.segments)
             segments = [asdict(each) | {"piece": piece} for each, piece in zip(profile.segments, pieces, strict=True)]
             actors[actor.name] = {"knots": knots, "segments": segments}
         return {"schema_version": SCHEMA_VERSION, "tolerance": self.tolerance, "actors": actors}

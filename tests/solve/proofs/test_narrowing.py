@@ -54,6 +54,11 @@ def test_what_is_no_bound_narrows_nothing() -> None:
     assert narrowed("eventually[A1(t0), A1(t2)] (A1v <= 8)")[1] == []
 
 
+def test_what_was_over_before_the_start_narrows_nothing() -> None:
+    assert narrowed("always[-5, -1] (A1v >= 100)")[1] == []
+    assert len(narrowed("always[-5, 1] (A1v >= 3)")[1]) == 1
+
+
 def test_each_part_counts() -> None:
     _, found = narrowed("always[A1(t0), A1(t2)] (A1v <= 8 and A1v >= 2)")
     assert [(each.law.speed_low, each.law.speed_high) for each in found] == [(ANY.speed_low, 8), (2, ANY.speed_high)]

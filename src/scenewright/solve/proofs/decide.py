@@ -18,12 +18,13 @@ from numpy.typing import NDArray
 from scenewright.algebra.polynomials import ZERO, Formula, Named, Unknown, origins_of, resting_on
 from scenewright.motion.limits import Limits
 from scenewright.motion.profile import Profile
+from scenewright.program.magnitudes import LONGEST_S
 from scenewright.program.structure import Structure, actors_of
 from scenewright.program.types import EGO, Constraint
 from scenewright.roads.grounding import Scene
 from scenewright.solve.proofs.apart import apart
 from scenewright.solve.proofs.crowding import crowded
-from scenewright.solve.proofs.events import LONGEST_S, EgoBounds, Events
+from scenewright.solve.proofs.events import EgoBounds, Events
 from scenewright.solve.proofs.guesses import carried_over, first_guess
 from scenewright.solve.proofs.lowering import Lowering
 from scenewright.solve.proofs.refinement import Refinement

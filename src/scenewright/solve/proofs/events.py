@@ -26,14 +26,13 @@ from scenewright.algebra.polynomials import (
 from scenewright.motion.laws import Law
 from scenewright.motion.limits import Limits
 from scenewright.motion.profile import Profile
+from scenewright.program.magnitudes import LONGEST_S
 from scenewright.program.structure import KnotKey, read_structure
 from scenewright.program.types import EGO, Actor, PieceKind
 from scenewright.roads.grounding import Scene
 from scenewright.solve.proofs.narrowing import Narrowing
 from scenewright.translate.phrases import does
 from scenewright.units import pin
-
-LONGEST_S = Fraction(120)
 
 
 @dataclass(frozen=True, slots=True)

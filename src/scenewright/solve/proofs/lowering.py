@@ -61,7 +61,7 @@ class Lowering:
     narrowings: list[Narrowing] = field(default_factory=list)
     rates: dict[tuple[int, int], Polynomial] = field(default_factory=dict)  # of what begins, by actor and instant
     means: dict[tuple[int, int, int], Polynomial] = field(default_factory=dict)  # of pieces, by actor and ends
-    _happens: dict[tuple[int, int, ex.Formula], int] = field(default_factory=dict)
+    happens: dict[tuple[int, int, ex.Formula], int] = field(default_factory=dict)  # moments, by ends and what is then
 
     def lower(self, constraints: tuple[Constraint, ...]) -> list[Named]:
         """Return every constraint as a formula. All moments are made first: an `always` is about all that there are.
@@ -293,9 +293,9 @@ class Lowering:
     def _eventually(self, first: int, last: int, body: ex.Formula) -> Formula:
         """Return that at some moment, which is to be found, the body holds."""
         events, key = self.events, (first, last, body)
-        if key not in self._happens:
-            self._happens[key] = events.instant("eventually")
-        made = self._happens[key]
+        if key not in self.happens:
+            self.happens[key] = events.instant("eventually")
+        made = self.happens[key]
         for actor in free_actors(body):
             events.state(actor, made)
         times = events.times

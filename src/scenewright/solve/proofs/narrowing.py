@@ -64,6 +64,8 @@ def narrowings_of(lowering: Lowering, formula: ex.Formula) -> Iterator[Narrowing
         case ex.Logic(operator="and", operands=operands):
             for operand in operands:
                 yield from narrowings_of(lowering, operand)
+        case ex.Temporal() if (early := lowering.ends_early(formula)) is not None and early.constant is not None:
+            return  # it was over when the run began
         case ex.Temporal(operator="always", body=ex.Logic(operator="and", operands=operands)):
             for operand in operands:
                 yield from narrowings_of(lowering, replace(formula, body=operand))

@@ -14,7 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scenewright.algebra.polynomials import ZERO, All, Atom, Formula, Polynomial, Unknown
-from scenewright.solve.proofs.events import LONGEST_S, Events
+from scenewright.program.magnitudes import LONGEST_S
+from scenewright.solve.proofs.events import Events
 
 Array = NDArray[np.float64]
 _PASSES = 2  # over all comparisons, to see between which places somebody is: enough for one that rests on another
