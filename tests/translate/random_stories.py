@@ -8,6 +8,7 @@ from contextlib import suppress
 from fractions import Fraction
 
 from scenewright.errors import TranslationError
+from scenewright.program.magnitudes import LONGEST_S
 from scenewright.program.manner import USUAL, manner_of
 from scenewright.program.types import DEFAULT_MAP, EGO, Parameter
 from scenewright.translate.phrases import PLACES
@@ -109,7 +110,10 @@ class Teller:
         symbols = [SI_SYMBOL[dimension]] if self.si else [each for each in UNITS if UNITS[each].dimension == dimension]
         divisor = pick.choice((1, 1, 2, 10) if self.si else (1, 1, 2, 10, 3))
         value = Fraction(pick.randint(0 if zero else 1, 400), divisor)
-        return Amount(value, pick.choice(symbols))
+        symbol = pick.choice(symbols)
+        while dimension == "time" and value * UNITS[symbol].si_factor > LONGEST_S:
+            value /= 10
+        return Amount(value, symbol)
 
     def measure(self, actor: int | None = None, alone: bool = False) -> Measure:
         pick = self.random

@@ -300,7 +300,6 @@ def test_a_moment_behind_several_deeds_is_of_the_last_which_is_asked() -> None:
 @pytest.mark.parametrize(
     "when",
     [
-        "the ego is 20 m behind the hero driving at 12 m/s",
         "the ego is 50 m before the intersection with the hero at 10 m/s",
         "the hero is 5 m/s slower than the ego at 15 m/s",
         "the ego is 12 m before the turn, so is the hero",
@@ -308,6 +307,78 @@ def test_a_moment_behind_several_deeds_is_of_the_last_which_is_asked() -> None:
 )
 def test_what_stands_behind_a_second_name_is_not_given_to_the_first(when: str) -> None:
     assert reading_of(f"{ALONG}When {when}, the hero brakes.").kind == "refused"
+
+
+@pytest.mark.parametrize(
+    ("first", "told"),
+    [
+        ("The ego drives west, 40 m behind a van that stands at the stop line.", "the van stands"),
+        ("The ego is 40 m behind a van that drives west at 10 m/s.", "the van drives at 10 m/s"),
+        ("The ego is 40 m behind a van heading west at 10 m/s.", "the van drives at 10 m/s"),
+        ("The ego is 40 m behind a van driving west at 10 m/s.", "the van drives at 10 m/s"),
+        ("The ego drives west, 40 m behind a van which drives at 10 m/s.", "the van drives at 10 m/s"),
+        (
+            "The ego turns right out of the driveway, 40 m behind a van that drives at 10 m/s.",
+            "the van drives at 10 m/s",
+        ),
+    ],
+)
+def test_what_is_told_right_behind_a_second_name_is_of_that_one(first: str, told: str) -> None:
+    meaning = told_in(f"{first} When the ego is 30 m behind the van, the van speeds up to 12 m/s.")
+    assert told in meaning
+    assert "the ego stands" not in meaning
+    assert "the ego drives at" not in meaning
+
+
+@pytest.mark.parametrize(
+    ("said", "why"),
+    [
+        ("When the ego is 40 m before the turn, the hero turns left, accelerating at 2 m/s^2.", "then or meanwhile"),
+        ("The hero brakes to a stop 3 m before it. It begins braking when the ego is 40 m from it.", "told before"),
+        ("When the ego is 40 m before the turn, the hero brakes to 5 m/s, starting 60 m before it.", "starts there"),
+        ("When the ego is 40 m before the turn, the hero sets off with 2 m/s^2 up to 8 m/s.", "to be so fast"),
+        ("Both drive at 10 m/s with a headway of 2 s. When the gap is 15 m, the hero brakes.", "whose this is"),
+    ],
+)
+def test_what_may_be_meant_otherwise_is_named(said: str, why: str) -> None:
+    reading = reading_of(f"{ALONG}{said.replace('before it', 'before the turn').replace('from it', 'from the turn')}")
+    assert reading.kind == "refused"
+    assert why in reading.told[0]
+
+
+@pytest.mark.parametrize(
+    ("start", "told"),
+    [
+        ("A stopped van is 60 m ahead of the ego.", "the van stands"),
+        ("A van, stopped 60 m ahead of the ego, is headed west.", "the van stands"),
+    ],
+)
+def test_who_is_stopped_stands(start: str, told: str) -> None:
+    meaning = told_in(f"The ego drives west. {start} When the ego is 30 m behind the van, the van drives on.")
+    assert told in meaning
+    assert "brakes" not in meaning
+
+
+@pytest.mark.parametrize(
+    ("does", "told"),
+    [
+        ("brakes at 2 m/s^2 down to 3 m/s", "begins to brake at 2 m/s^2 until it drives at 3 m/s"),
+        ("reduces its speed to 3 m/s", "begins to brake until it drives at 3 m/s"),
+        ("increases its speed to 13 m/s", "begins to speed up until it drives at 13 m/s"),
+        ("brakes with a constant deceleration of 3 m/s^2", "begins to brake at 3 m/s^2"),
+        ("stops for 3 s and starts driving", "Then the hero stands still for 3 s."),
+        ("drives on, speeding up to 13 m/s", "begins to speed up until it drives at 13 m/s"),
+    ],
+)
+def test_ordinary_ways_to_say_it(does: str, told: str) -> None:
+    assert told in told_in(f"{ALONG}When the ego is 20 m behind the hero, the hero {does}.")
+
+
+def test_whose_it_is_that_follows_a_pronoun_is_not_guessed() -> None:
+    text = "The ego is followed by a van 15 m behind it that drives at 12 m/s."
+    assert (
+        reading_of(f"{text} The ego drives west. When the van is 9 m behind the ego, the van brakes.").kind == "refused"
+    )
 
 
 @pytest.mark.parametrize(

@@ -65,8 +65,15 @@ def test_a_deed_after_an_event_begins_after_it() -> None:
 def test_where_a_deed_begins() -> None:
     story = read("The ego has an open way. The hero brakes 15 m before the stop line.")
     assert [deed.verb for deed in story.deeds] == [Verb.DRIVE, Verb.BRAKE]
+
+
+def test_who_stops_for_some_time_stands_for_it() -> None:
+    story = read("The ego has an open way. The hero stops at the stop line for 3 s and drives on.")
+    assert [deed.verb for deed in story.deeds] == [Verb.BRAKE, Verb.STAND, Verb.DRIVE]
+    (order,) = story.orders
+    assert (order.first, order.second, order.op) == (story.deeds[1].begins, story.deeds[1].ends, "==")
     with pytest.raises(UnknownWordsError, match="lasts so long"):
-        read("The ego has an open way. The hero stops at the stop line for 3 s and drives on.")
+        read("The ego has an open way. The hero brakes to a standstill for 3 s.")
 
 
 def test_who_stands_at_the_start_stands_until_it_does_something() -> None:

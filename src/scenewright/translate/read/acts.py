@@ -55,16 +55,27 @@ def acts_of(story: Narrative, items: list[Clause], happens: bool) -> list[Clause
             item.deed = st.Verb.DRIVE  # "Then it drives"
         elif is_hero and refrains and all(other is item or not other.says_more_than() for other in items):
             item.deed = st.Verb.DRIVE  # "when ..., it does not brake"
+        elif is_hero and item.phase == "begins" and not item.says_more_than("phase"):
+            item.phase, item.deed = None, st.Verb.DRIVE  # "when ..., it starts driving"
         elif item.phase == "begins" and item.deed is None and item.measures:
             item.phase = None
             if is_hero and item.measures[0].quantity is st.Quantity.SPEED:  # "starts driving at 8 m/s"
                 item.deed, item.flags = st.Verb.DRIVE, item.flags | {"to"}
                 item.facts = {} if item.facts.get("turn") == "straight" else item.facts
             else:  # "starts 40 m before the stop line"
+                if any(each.deed is not None and each.subject == item.subject for each in items):
+                    story.refuse("it is not clear what starts there", item.quote, "say it in front of what is done")
                 item.flags.add("start")
         if acts:
             story.tell(item)
         before = found[-1] if found and found[-1].subject == item.subject else Clause(item.quote)
+        if item.deed in CHANGES and item.quote.text.split()[0].endswith("ing") and before.deed is not None:
+            if before.deed != st.Verb.DRIVE or before.says_more_than("deed"):  # "turns left, accelerating at 2 m/s^2"
+                story.refuse(
+                    "it is not clear whether this is done then or meanwhile", item.quote, "say 'then', or 'while'"
+                )
+            found.pop()  # "pulls out, accelerating to 8 m/s"
+            before = Clause(item.quote)
         twice = (before.deed, item.deed) == (st.Verb.BRAKE, "stop")
         stands = before.deed in ("stop", st.Verb.STAND)  # who stands passes nothing: that comes after it
         if before.deed is not None and not stands and item.is_event and not before.measures:
@@ -119,6 +130,8 @@ def shares_of(story: Narrative, clause: Clause) -> tuple[list[st.Measure], list[
         fast = measure.quantity is st.Quantity.SPEED
         if rests and measure.quantity is st.Quantity.ARRIVAL:
             story.refuse("who stands has no time to arrival", clause.quote, "say where it stands, in metres")
+        if fast and clause.deed == st.Verb.DRIVE and clause.rates and measure.op in ("<", "<="):
+            story.refuse("it is not clear whether it is to be so fast", measure.quote, "say 'speeds up to ...'")
         if fast and "to" not in clause.flags and clause.deed != st.Verb.DRIVE:
             story.refuse("it is not clear when it is so fast")
         ends_there = rests or bool(clause.flags & {"to", "to there"}) or st.is_event(measure)
@@ -137,11 +150,6 @@ def shares_of(story: Narrative, clause: Clause) -> tuple[list[st.Measure], list[
             stays = story.ask(f"where {at.start}", f"What is '{at.text}'?", here, None, at) == here[0]
         (held if fast and "to" not in clause.flags else begins if stays else ends).append(measure)
     return begins, held, ends
-
-
-def is_beside(measure: st.Measure) -> bool:
-    """Whether it is of where somebody is beside another, and so no way of driving."""
-    return measure.other is not None and measure.quantity is not st.Quantity.SPEED
 
 
 def unknown_to_programs(chunks: Sequence[Chunk]) -> TranslationError | None:

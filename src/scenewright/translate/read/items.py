@@ -27,6 +27,7 @@ ONE_SIDE: dict[tuple[str, str], st.Operator] = {
     ("no later than", "before"): ">=", ("earlier than", "before"): ">",
     ("no earlier than", "after"): ">=", ("no earlier than", "before"): "<=",
 }  # fmt: skip
+_LINKED = {"that", "which", "who", "heading", "headed"}
 Margin = tuple[st.Operator, st.Amount | None]
 _PREDICATES = {
     "be", "state", "event", "phase", "deed", "turn", "mood", "heading", "origin", "quantity", "amount", "lanes",
@@ -173,6 +174,21 @@ def parted(chunks: list[Chunk]) -> tuple[list[Chunk], list[Chunk]]:
     return chunks[:cut], main[1:] if main and main[0].value == "then" else main
 
 
+def plainly(chunks: list[Chunk]) -> list[Chunk]:
+    """Return chunks as they are meant beside each other: who is "stopped" stands, "down to 3 m/s" is to that speed."""
+    found = list[Chunk]()
+    for number, chunk in enumerate(chunks):
+        last, following = chunks[max(number - 1, 0)].kind, next(iter(chunks[number + 1 :]), chunk)
+        fast = following.amount is not None and following.amount.dimension == "speed"
+        if chunk.words == "stopped" and (following.kind in PEOPLE or last == "comma"):
+            found.append(replace(chunk, kind="state", value="stands"))  # "a stopped bus", "the car, stopped 5 m before"
+        elif chunk.words == "down to" and fast and any(each.kind == "deed" for each in found):
+            found.append(replace(chunk, kind="side", value="to"))
+        elif chunk.kind != "kept" or following.value not in ("acceleration", "deceleration", "rate"):
+            found.append(chunk)  # "at a constant rate": one number is one all through
+    return found
+
+
 def goes_on_in(chunks: Sequence[Chunk]) -> bool:
     """Whether in what tells a moment something else is done, by nobody that is named: "until ... and stops"."""
     return any(_does_more(*each) for each in pairwise(chunks))
@@ -261,6 +277,11 @@ def items_of(people: Cast, chunks: Sequence[Chunk], subject: int | None = None) 
     return found
 
 
+def is_beside(measure: st.Measure) -> bool:
+    """Whether it is of where somebody is beside another, and so no way of driving."""
+    return measure.other is not None and measure.quantity is not st.Quantity.SPEED
+
+
 @dataclass(slots=True)
 class _Items:
     people: Cast
@@ -326,6 +347,11 @@ class _Items:
             between = before[-1:] == ["between"] or (before[-1:] == ["of"] and before[0] in BETWEEN_TWO)
             between &= self.chunks[self.at - 1].kind in PEOPLE
             closes = any(self.is_joint(link) for link in inside) or self.is_beside()
+            if self.at > start + 1 and self._is_of_another():  # "40 m behind a van that stands": the van stands
+                self.chunks[self.at : self.at + (chunk.kind == "relative")] = [
+                    replace(chunk, kind="relative", traits=())
+                ]
+                break
             fronted = self._is_fronted(start)
             if self.at > start and (closes or (parts and not (between or fronted) and self._begins(self.at + 1))):
                 break
@@ -342,6 +368,9 @@ class _Items:
         self.before = self._read([*self.both[-1:], *own])
         for clause in (*self.others, self.before):
             clause.notes |= {"both"} if self.both else set()
+        beside = [(of.actor, of.other) for each in (*self.others, self.before) for of in each.measures if is_beside(of)]
+        if self.both and any((other, one) in beside for one, other in beside):  # "both drive with a headway of 2 s"
+            self.people.refuse("it is not said whose this is to whom", own[0].quote, "say it of the one behind")
         if any(each.subject == self.before.subject for each in self.others):
             self.people.refuse("one and the same is named twice", self.before.quote)
         return self.before
@@ -366,6 +395,15 @@ class _Items:
                 self.people.refuse("two headings are told", clause.quote)
         return clause
 
+    def _is_of_another(self) -> bool:
+        """Whether it is said here what somebody does who was named beside whom the clause is of."""
+        before, chunk = self.chunks[self.at - 1], self.chunks[self.at]
+        linked = chunk.kind == "relative" or (chunk.kind == "state" and chunk.text.endswith("ing"))
+        linked |= bool(_LINKED & {*self.people.text[before.end : chunk.start].lower().split()})
+        if linked and before.kind == "pronoun":
+            self.people.refuse("it is not clear of whom this is", chunk.quote, "say it in a sentence of its own")
+        return linked and before.kind in ("actor", "name")
+
     def is_beside(self) -> bool:
         """Whether it is said here how somebody else is: "with the ego 20 m behind it"."""
         opens, *following = self.chunks[self.at : self.at + 4]
@@ -388,7 +426,7 @@ class _Items:
                     for each in self.people.pair(chunks[0])]  # fmt: skip
         kinds = [chunk.kind for chunk in chunks]
         if len(chunks) == 4 and kinds[0] in PEOPLE and kinds[2] in PEOPLE and chunks[1].value == "and":
-            self.at += 3
+            self.at += 3 + (self.chunks[self.at + 3].kind == "pair")  # "the ego and the truck both drive west"
             return [chunks[0], chunks[2]]
         return []
 

@@ -15,7 +15,7 @@ from scenewright.errors import Place as Where
 from scenewright.errors import Span, TranslationError
 from scenewright.program.types import EGO
 from scenewright.translate import story as st
-from scenewright.translate.read.acts import acts_of, is_beside, lasting, shares_of, unknown_to_programs
+from scenewright.translate.read.acts import acts_of, lasting, shares_of, unknown_to_programs
 from scenewright.translate.read.chunks import Chunk, sentences
 from scenewright.translate.read.clauses import PEOPLE, Clause, agree, is_upper
 from scenewright.translate.read.items import (
@@ -23,9 +23,11 @@ from scenewright.translate.read.items import (
     Segment,
     during_of,
     goes_on_in,
+    is_beside,
     items_of,
     parted,
     parts_of,
+    plainly,
     segments_of,
     tail_of,
     wishes_otherwise,
@@ -99,7 +101,7 @@ class _Sentence:
 
     def read(self) -> None:
         self.story.mentioned, self.story.doer = [], None
-        self.chunks = self.story.known_words(self.chunks)
+        self.chunks = plainly(self.story.known_words(self.chunks))
         self.story.named = [chunk for chunk in self.chunks if chunk.kind in PEOPLE]
         how = next((chunk for chunk in self.chunks if chunk.kind == "link" and chunk.value in HOW), None)
         if self.chunks and self.chunks[0].kind == "ego's order":
@@ -338,6 +340,10 @@ class _Sentence:
             story.refuse("two ends of one deed are told")
         if turned := self.led.own.partition("turn ")[2]:  # "after turning left, it ..."
             story.tell_way(clause.subject, {"turn": turned})
+        if self.is_of_last and clause.phase == "begins" and not clause.says_more_than("deed", "phase"):
+            last = last_of(story, clause.subject)  # "It brakes to a stop 3 m before it. It begins to brake when ..."
+            if last is not None and last.verb == clause.deed and "again" not in self.led.words:
+                story.refuse("this was told before", clause.quote, "say in that sentence when it begins")
         story.awaits = None if when is None and self.pending is not None else story.awaits
         again = None if when is not None or self.pending is not None or self.led.words else told_before(story, clause)
         begins, held, ends = shares_of(story, clause)
@@ -427,8 +433,10 @@ class _Sentence:
             late = at_end or until or not (each.is_first or begun or (each.link == "after" and not is_end) or not ends)
             late = late and (doing.ends is not None or doing.rests)
             put_in_order(story, story.finish(doing) if late else doing.begins, [each])
-        if rests and "for" in clause.times:
-            story.refuse("it is not clear what lasts so long")
+        if rests and "for" in clause.times:  # "stops for 3 s"
+            if clause.deed != "stop":
+                story.refuse("it is not clear what lasts so long")
+            story.begin(clause.subject, st.Verb.STAND, None, set()).lasts += dict.fromkeys(clause.times["for"])
 
     def _at(self, actor: int, place: str) -> st.Measure:
         return st.Measure(actor, st.Quantity.PLACE, "==", None, st.Place(place), quote=self.story.quote)
