@@ -337,13 +337,22 @@ def test_what_is_told_right_behind_a_second_name_is_of_that_one(first: str, told
         ("The hero brakes to a stop 3 m before it. It begins braking when the ego is 40 m from it.", "told before"),
         ("When the ego is 40 m before the turn, the hero brakes to 5 m/s, starting 60 m before it.", "starts there"),
         ("When the ego is 40 m before the turn, the hero sets off with 2 m/s^2 up to 8 m/s.", "to be so fast"),
-        ("Both drive at 10 m/s with a headway of 2 s. When the gap is 15 m, the hero brakes.", "whose this is"),
     ],
 )
 def test_what_may_be_meant_otherwise_is_named(said: str, why: str) -> None:
     reading = reading_of(f"{ALONG}{said.replace('before it', 'before the turn').replace('from it', 'from the turn')}")
     assert reading.kind == "refused"
     assert why in reading.told[0]
+
+
+def test_what_both_have_to_each_other_is_of_who_is_behind() -> None:
+    both = "Both drive at 10 m/s with a headway of 2 s. When the gap is 15 m, the hero brakes."
+    program = reading_of(f"{ALONG}{both}").program
+    assert program is not None
+    assert [t for t in map(print_expression, (c.formula for c in program.constraints)) if t.startswith("headway")] == [
+        "headway(A0, A1, t0) == 2"
+    ]
+    assert reading_of(f"The ego and the hero drive west. {both}").kind == "refused"
 
 
 @pytest.mark.parametrize(
