@@ -30,6 +30,13 @@ def test_who_goes_first_passes_before_the_other_and_it_is_never_lost() -> None:
         assert reading_of(text).program is None
 
 
+def test_who_lets_the_ego_go_first_is_before_the_conflict_point_when_that_passes_it() -> None:
+    for said in ("slows down to 3 m/s and the ego goes first", "slows down to 3 m/s. The ego passes first",
+                 "slows down to 3 m/s, and the ego passes the conflict point first"):  # fmt: skip
+        found = formulas(reading_of(f"{MEETS}the hero {said}."))
+        assert {"A0x(t2) == conflict_point", "A1x(A0(t2)) < conflict_point"} <= found, said
+
+
 def test_who_brakes_comes_to_a_standstill() -> None:
     for said in ("brakes", "brakes at 3 m/s^2", "slows down", "brakes to a stop", "comes to a halt"):
         assert "A1v(t2) == 0" in formulas(reading_of(f"{MEETS}the hero {said}.")), said

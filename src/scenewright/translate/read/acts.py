@@ -7,6 +7,7 @@ somebody does not do are given to the narrative.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 
 from scenewright.errors import TranslationError
 from scenewright.program.types import EGO
@@ -66,6 +67,9 @@ def acts_of(story: Narrative, items: list[Clause], happens: bool) -> list[Clause
                 if any(each.deed is not None and each.subject == item.subject for each in items):
                     story.refuse("it is not clear what starts there", item.quote, "say it in front of what is done")
                 item.flags.add("start")
+        if item.subject == EGO and "first" in item.flags:
+            item.flags -= {"first"}
+            story.afterwards.append(partial(story.ego_first, item.quote))  # when all that is done is told
         if acts:
             story.tell(item)
         before = found[-1] if found and found[-1].subject == item.subject else Clause(item.quote)

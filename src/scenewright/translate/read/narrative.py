@@ -251,6 +251,15 @@ class Narrative(Cast):
             self.refuse("nothing was told of this event before", clause.quote, "say what is done until then")
         return self.new_moment(clause.measures)
 
+    def ego_first(self, quote: st.Quote) -> None:
+        """Let nobody else be past the conflict point when the ego passes it."""
+        if len(self.heroes) != 1 or not self.doings:
+            self.refuse("it is not said who does what for that", quote, "say what the other one does")
+        self.quote, there = quote, st.Place("conflict_point")
+        passes = self.event(Clause(quote, EGO, measures=[st.Measure(EGO, st.Quantity.PLACE, "==", None, there)]))
+        self.add(passes, [st.Measure(self.heroes[0].id, st.Quantity.PLACE, "<", None, there, quote=quote)])
+        self.later.add(passes)
+
     def tell(self, clause: Clause) -> None:
         """Take what a clause says of somebody's way, and leave the rest."""
         if not (clause.facts or clause.relations or clause.flags & {"way", "headed"}):
