@@ -107,7 +107,7 @@ def test_a_moment_of_both_that_both_miss_is_not_the_egos_to_miss(failed: tuple[s
 
 @pytest.mark.parametrize(("name", "told"), [("start", "brakes with 6.0 m/s^2 at once"), ("c1", "no first plan")])
 def test_a_run_that_fails_by_its_beginning_is_told_what_its_first_plan_gave_up(name: str, told: str) -> None:
-    request = Request(STORIES["yields, distance"], ego="constant", takes=1)
+    request = Request(STORIES["yields, distance"], ego="constant", takes=1, replan_hz=4.0)
     result, world = orchestrate(request), set_up(request, Stages(None))[0]
     run, verdict = result.run, result.verdict
     assert run is not None
@@ -145,7 +145,7 @@ A2v(t2) == 0
 
 
 def test_who_drives_into_a_hero_after_its_trigger_spoils_what_others_were_to_do() -> None:
-    found = orchestrate(Request(BETWEEN, ego="constant", takes=1))
+    found = orchestrate(Request(BETWEEN, ego="constant", takes=1, replan_hz=4.0))
     assert found.status == "failure"
     told = cause(found)
     assert (told.kind, told.evidence["hero"]) == ("ego", "hero")
@@ -170,14 +170,14 @@ A1(t1) == 30 s
 A0v(A1(t1)) >= 5
 A1v(t2) == 6
 """
-    found = cause(orchestrate(Request(program, ego="constant", takes=1)))
+    found = cause(orchestrate(Request(program, ego="constant", takes=1, replan_hz=4.0)))
     assert (found.kind, found.evidence["at_the_end_of_its_road"]) == ("plan", True)
     assert found.text.startswith("The ego came to the end of its road at ")
 
 
 def test_where_all_that_was_asked_was_done_what_else_was_missed_is_told() -> None:
     """The program puts the lead so near that an ego which holds its speed drives into it before the trigger."""
-    found = cause(orchestrate(Request(STOPS_AHEAD, ego="constant", takes=1)))
+    found = cause(orchestrate(Request(STOPS_AHEAD, ego="constant", takes=1, replan_hz=4.0)))
     assert "the ego collides with nobody before the trigger" in found.text
     assert "no plan was found" not in found.text
 
@@ -230,7 +230,7 @@ A1v(t2) == 0
 
 def test_what_comes_after_a_crash_is_not_told_as_its_cause() -> None:
     """The hero, at full acceleration from the start, comes to its greatest speed seconds after it was hit."""
-    result = orchestrate(Request(TOO_NEAR, ego="constant", takes=1))
+    result = orchestrate(Request(TOO_NEAR, ego="constant", takes=1, replan_hz=4.0))
     assert result.status == "failure"
     assert result.verdict is not None
     assert result.verdict.aftermath.collision is not None

@@ -30,7 +30,7 @@ def test_where_each_waits_for_the_other_it_is_told_who_stands_in_the_way(
     ego_m: float, hero_m: float, stands_m: float
 ) -> None:
     """The one on the road stands until the ego has passed, and that one gives way to it, or cannot pass it."""
-    verdict = orchestrate(Request(WAITS.format(ego_m=ego_m, hero_m=hero_m, stands_m=stands_m), takes=1)).verdict
+    verdict = orchestrate(Request(WAITS.format(ego_m=ego_m, hero_m=hero_m, stands_m=stands_m), takes=1, replan_hz=4.0)).verdict
     assert verdict is not None
     assert verdict.cause is not None
     assert verdict.cause.kind == "plan"
@@ -40,4 +40,4 @@ def test_where_each_waits_for_the_other_it_is_told_who_stands_in_the_way(
 
 
 def test_who_stands_clear_of_its_way_does_not_hold_it_up() -> None:
-    assert orchestrate(Request(WAITS.format(ego_m=15, hero_m=40, stands_m=16), takes=1)).status == "success"
+    assert orchestrate(Request(WAITS.format(ego_m=15, hero_m=40, stands_m=16), takes=1, replan_hz=4.0)).status == "success"

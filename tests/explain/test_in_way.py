@@ -37,7 +37,7 @@ def test_who_stops_for_a_hero_is_not_to_blame() -> None:
 
 
 def test_nobody_slows_down_for_who_is_behind() -> None:
-    request = Request((EXAMPLES / "boxed_in.scene").read_text(), ego="stop-and-go", seed=1, takes=1)
+    request = Request((EXAMPLES / "boxed_in.scene").read_text(), ego="stop-and-go", seed=1, takes=1, replan_hz=2.0)
     run, (world, _) = orchestrate(request).run, set_up(request, Stages(None))
     assert run is not None
     found = hero_in_way(world, run)
