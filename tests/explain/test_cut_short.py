@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from scenewright.orchestrate import orchestrate
-from scenewright.request import Request
+from scenewright.request import Request, Result
 from stories import program
 
 WAITS = program(
@@ -25,12 +25,17 @@ A1v(t4) == 6
 )
 
 
+def waited_for(ego_m: float, hero_m: float, stands_m: float) -> Result:
+    text = WAITS.format(ego_m=ego_m, hero_m=hero_m, stands_m=stands_m)
+    return orchestrate(Request(text, takes=1, replan_hz=4.0))
+
+
 @pytest.mark.parametrize(("ego_m", "hero_m", "stands_m"), [(15, 28, 9), (15, 28, 2), (8, 40, 2)])
 def test_where_each_waits_for_the_other_it_is_told_who_stands_in_the_way(
     ego_m: float, hero_m: float, stands_m: float
 ) -> None:
     """The one on the road stands until the ego has passed, and that one gives way to it, or cannot pass it."""
-    verdict = orchestrate(Request(WAITS.format(ego_m=ego_m, hero_m=hero_m, stands_m=stands_m), takes=1, replan_hz=4.0)).verdict
+    verdict = waited_for(ego_m, hero_m, stands_m).verdict
     assert verdict is not None
     assert verdict.cause is not None
     assert verdict.cause.kind == "plan"
@@ -40,4 +45,4 @@ def test_where_each_waits_for_the_other_it_is_told_who_stands_in_the_way(
 
 
 def test_who_stands_clear_of_its_way_does_not_hold_it_up() -> None:
-    assert orchestrate(Request(WAITS.format(ego_m=15, hero_m=40, stands_m=16), takes=1, replan_hz=4.0)).status == "success"
+    assert waited_for(15, 40, 16).status == "success"

@@ -8,8 +8,13 @@ import pytest
 from many_heroes import PROGRAMS, drive
 
 from scenewright.orchestrate import orchestrate
-from scenewright.request import Request
+from scenewright.request import Request, Result
 from stories import STEP_S, STORIES, Scripted, Stage, program
+
+
+def ends(source: str, ego: str) -> Result:
+    """Return a run that re-solves as often as its end needs it."""
+    return orchestrate(Request(source, ego=ego, takes=1, replan_hz=2.0))
 
 
 def test_a_run_goes_on_while_anybody_may_still_do_what_is_asked() -> None:
@@ -36,7 +41,7 @@ def test_a_run_goes_on_until_what_is_told_by_the_clock(tmp_path: Path) -> None:
     trigger = "A0x(t0) == conflict_point - 120\nA0(t1) == A1(t1)\nA0x(t1) == conflict_point - 30\n"
     path = tmp_path / "late.scene"
     path.write_text(program("E, N", "t0, go, t1, dec, t2", trigger + hero))
-    result = orchestrate(Request(source=str(path), ego="constant", takes=1, replan_hz=2.0))
+    result = ends(str(path), "constant")
     assert result.run is not None
     assert result.run.trace.actors["hero"].time_s[-1] >= 25.0
     assert result.status == "success"
@@ -58,7 +63,7 @@ def test_a_run_goes_on_until_a_stretch_of_time_is_over_that_is_counted_from_a_mo
 def test_a_run_does_not_end_with_the_road_of_an_ego_that_nobody_waits_for(at_s: int) -> None:
     """What the clock tells comes as late as can be proven at all, wherever the ego is by then."""
     trigger = f"A1(t1) == {at_s} s\nA1x(t1) == stop_line - 15\nA1x(t2) == stop_line - 1\nA1v(t2) == 0\n"
-    result = orchestrate(Request(program("S, W", "t0, go, t1, dec, t2", trigger), ego="constant", takes=1, replan_hz=2.0))
+    result = ends(program("S, W", "t0, go, t1, dec, t2", trigger), "constant")
     assert result.status == "success"
     assert result.run is not None
     ego = result.run.trace.actors["ego"]
@@ -67,20 +72,20 @@ def test_a_run_does_not_end_with_the_road_of_an_ego_that_nobody_waits_for(at_s: 
 
 def test_a_run_ends_no_sooner_than_a_hero_is_at_the_very_end_of_its_road() -> None:
     trigger = "A0(t1) == A1(t1)\nA0x(t1) == conflict_point - 40\nA1x(t1) == conflict_point - 20\nA1x(t2) == route_end\n"
-    result = orchestrate(Request(program("E, N", "t0, go, t1, acc, t2", trigger), ego="constant", takes=1, replan_hz=2.0))
+    result = ends(program("E, N", "t0, go, t1, acc, t2", trigger), "constant")
     assert result.status == "success"
 
 
 def test_a_run_does_not_end_before_a_moving_ego_is_at_the_end_of_its_road() -> None:
     trigger = "A0(t1) == A1(t1)\nA0x(t1) == route_end\nA1x(t1) == conflict_point - 30\nA1v(t2) == 0\n"
-    result = orchestrate(Request(program("E, N", "t0, go, t1, dec, t2", trigger), ego="idm", takes=1))
+    result = ends(program("E, N", "t0, go, t1, dec, t2", trigger), "idm")
     assert result.status == "success"
 
 
 def test_a_run_goes_on_for_what_is_planned_though_the_ego_stands() -> None:
     """The hero stands for longer than an ego that stands is waited for, and drives on by itself."""
     hero = "A0(t1) == A1(t1)\ngap(A0, A1, t1) == 30\nA1v(t2) == 0\nA1(t3) - A1(t2) == 25\nA1v(t4) == 8\n"
-    result = orchestrate(Request(program("W", "t0, go, t1, dec, t2, stop, t3, acc, t4", hero), ego="idm", takes=1, replan_hz=4.0))
+    result = ends(program("W", "t0, go, t1, dec, t2, stop, t3, acc, t4", hero), "idm")
     assert result.status == "success"
     assert result.run is not None
     ego = result.run.trace.actors["ego"]

@@ -18,19 +18,13 @@ from stories import HERO, STEP_S, STORIES, TICK_S, Scripted, Stage, driven, prog
 
 TABLE = [
     ("yields, distance", "constant", 0),
-    ("yields, distance", "idm", 0),
     ("yields, distance", "dawdler", 0),
     ("yields, distance", "noisy", 0),
-    ("yields, time", "constant", 0),
     ("yields, time", "idm", 0),
-    ("stops and goes", "constant", 0),
     ("stops and goes", "idm", 0),
-    ("stops and goes", "dawdler", 1),
-    ("goes first, distance", "dawdler", 0),
+    ("stops and goes", "dawdler", 0),
     ("goes first, distance", "noisy", 1),
     ("goes first, time", "constant", 0),
-    ("goes first, time", "idm", 0),
-    ("brakes at a rate", "idm", 0),
     ("brakes at a rate", "dawdler", 1),
     ("brakes at a rate", "noisy", 0),
 ]
@@ -145,7 +139,7 @@ def test_after_its_trigger_the_hero_does_not_adapt(story: str) -> None:
         place = next(c for c in stage.conditions if c.moments == {(0, "t0")})
         per_metre, per_speed = place.weights[0]
         assert stage.begin(-(place.constant + per_speed * speed_mps) / per_metre, speed_mps).is_good
-        run = stage.run()
+        run = stage.run(tick_s=0.25)
         trigger_s = trigger_s or hero_knots_s(run)["t1"]
         frozen = [record.status for record in run.replans if record.time_s > trigger_s]
         assert frozen
