@@ -49,6 +49,12 @@ def nothing_proposed(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("scenewright.solve.feasibility.suggest", lambda *_: ())
 
 
+@pytest.fixture
+def searched_less(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let little be searched for a motion, for tests of runs of which none is found: it takes longer than the run."""
+    monkeypatch.setattr("scenewright.solve.proofs.decide._WORK_PER_S", 200_000)
+
+
 @pytest.fixture(scope="session")
 def shared_dir() -> Path:
     """Return the folder `shared` beside the clone, which holds maps and texts that are not ours to keep in it."""

@@ -266,6 +266,7 @@ def test_without_options_it_shows_its_help(command: Command) -> None:
 @pytest.mark.usefixtures("in_one_process")
 def test_examples_in_help_run_as_they_stand(command: Command, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("COLUMNS", "80")
+    monkeypatch.setattr("scenewright.takes.how_next", lambda *_: ())  # nothing is taken again
     done = set()
     for name in ("", *(name for name in COMMANDS if name not in ("success", "timing", "report"))):
         examples = examples_of(command("bench", *filter(None, [name]), "--help").stdout)

@@ -175,6 +175,7 @@ A1v(t2) == 6
     assert found.text.startswith("The ego came to the end of its road at ")
 
 
+@pytest.mark.usefixtures("searched_less")
 def test_where_all_that_was_asked_was_done_what_else_was_missed_is_told() -> None:
     """The program puts the lead so near that an ego which holds its speed drives into it before the trigger."""
     found = cause(orchestrate(Request(STOPS_AHEAD, ego="constant", takes=1, replan_hz=4.0)))
@@ -228,6 +229,7 @@ A1v(t2) == 0
 """
 
 
+@pytest.mark.usefixtures("searched_less")
 def test_what_comes_after_a_crash_is_not_told_as_its_cause() -> None:
     """The hero, at full acceleration from the start, comes to its greatest speed seconds after it was hit."""
     result = orchestrate(Request(TOO_NEAR, ego="constant", takes=1, replan_hz=4.0))

@@ -59,6 +59,7 @@ def test_one_that_fails_now_and_then_is_listened_to_when_it_does_not(monkeypatch
     assert solved[-1].tolerance < 2.0
 
 
+@pytest.mark.usefixtures("searched_less")
 def test_gives_up_and_drives_nothing_where_no_plan_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
     failing(monkeypatch)
     result = orchestrate(Request(STORY, ego="idm"))

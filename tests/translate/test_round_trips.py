@@ -19,7 +19,7 @@ from scenewright.translate.read.sentences import read
 from scenewright.translate.story import Story, arranged
 from scenewright.translate.tell import tell
 
-STORIES = 200
+STORIES = 120
 
 
 def programs() -> list[Program]:

@@ -105,6 +105,9 @@ def test_a_bound_that_is_reached_is_that_bound() -> None:
     assert "gap(A0, A1, t1) < 20" in formulas(ALONG + "When the gap drops to less than 20 m, the hero brakes.")
 
 
+EVERY = 3  # of so many places for a second amount one is tried, beginning with another for each text
+
+
 def with_one_more(text: str) -> Iterator[str]:
     """Yield a text with a second amount behind each of its amounts."""
     for match in AMOUNT.finditer(text):
@@ -116,8 +119,9 @@ def with_one_more(text: str) -> Iterator[str]:
 def test_a_second_amount_put_in_anywhere_is_in_the_story_or_refused() -> None:
     """Of what the teller wrote: nothing that is said of the first amount is lost either."""
     held = 0
-    for _, lines in told_stories(60):
-        for text in with_one_more("\n".join(each for each in lines if not each.startswith(LABELS))):
+    for number, (_, lines) in enumerate(told_stories(60)):
+        told = "\n".join(each for each in lines if not each.startswith(LABELS))
+        for text in list(with_one_more(told))[number % EVERY :: EVERY]:
             try:
                 story = read(text)
             except TranslationError:

@@ -119,12 +119,15 @@ def test_a_text_without_an_ego_is_refused() -> None:
         read("The hero brakes to a stop.")
 
 
+EVERY = 3  # of so many changes one is tried, beginning with another for each text
+
+
 def test_every_change_of_meaning_is_noticed() -> None:
     """Of what the teller wrote: one word exchanged changes the story, is asked about, or is refused."""
-    for _, lines in told_stories(6):
+    for number, (_, lines) in enumerate(told_stories(6)):
         text = "\n".join(lines)
         base = st.arranged(read(text))
-        for what, changed in changes(text):
+        for what, changed in list(changes(text))[number % EVERY :: EVERY]:
             try:
                 story = read(changed)
             except ScenewrightError:
