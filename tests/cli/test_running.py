@@ -63,7 +63,7 @@ def test_after_the_first_take_it_keeps_what_was_driven(
     # A proof takes longer than the run; here it is of no matter whether there is one.
     monkeypatch.setattr("scenewright.simulate.hindsight.ego_left_no_room", lambda *_: None)
     monkeypatch.setattr(where, interrupted)
-    result = orchestrate(Request(STORIES["stops and goes"], ego="speeder", takes=2, out=tmp_path / "run"))
+    result = orchestrate(Request(STORIES["goes first, distance"], ego="speeder", takes=2, out=tmp_path / "run"))
     assert (result.status, EXIT_STATUS[result.status]) == ("interrupted", 130)
     assert result.verdict is not None
     assert (tmp_path / "run" / "trace.parquet").is_file()

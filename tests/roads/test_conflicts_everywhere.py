@@ -20,7 +20,7 @@ ONE_PLACE_M = 1.0
 SOURCES = ["t_intersection", *sorted(path.relative_to(FOREIGN).as_posix() for path in FOREIGN.rglob("*.xodr"))]
 TRUCK = Body(10.0, 2.5)
 Pair = tuple[Route, Route, tuple[Conflict, ...]]
-_PAIRS, _BOTH_SIDES = 850, 150  # of a town that has more, every so manieth is looked at; fewer from both sides
+_PAIRS, _BOTH_SIDES = 400, 100  # of a town that has more, every so manieth is looked at; fewer from both sides
 
 
 @cache

@@ -23,7 +23,8 @@ from scenewright.study.benchmark import benchmark_row, draw_row
 def test_lateral_acceleration_stays_within_its_limit(row: int, draw: int, draws_seed: int, ego: str) -> None:
     found = benchmark_row(row)
     seed = draws_seed + 1000 * draw + row
-    result = orchestrate(Request(found.program_text, draw_row(found, draw, draws_seed), ego=ego, seed=seed, takes=1))
+    values = draw_row(found, draw, draws_seed)
+    result = orchestrate(Request(found.program_text, values, ego=ego, seed=seed, takes=1, explain="nothing"))
     assert result.verdict is not None
     lateral = next(condition for condition in result.verdict.conditions if condition.id == "kin_hero_lateral")
     assert lateral.measured is not None

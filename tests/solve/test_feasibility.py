@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from fractions import Fraction
+from functools import partial
 
 import pytest
 from hypothesis import assume, given, settings
@@ -23,6 +24,7 @@ from scenewright.program.structure import read_structure
 from scenewright.program.text import parse_program
 from scenewright.roads import load_map
 from scenewright.roads.grounding import ground
+from scenewright.solve import suggestions
 from scenewright.solve.feasibility import EgoBounds
 from scenewright.solve.proofs.decide import Decision, Question, decide
 from scenewright.solve.proofs.lowering import MEAN_RATE
@@ -94,7 +96,7 @@ def test_how_far_one_rate_leads_is_refuted_only_where_no_ramp_makes_up_for_it(wa
     """From 12 m/s to a stand at 2 m/s^2 it is 36 m; harder in one ramp, and less in the other, it is 33 m."""
     told = f"{MET}A1v(t1) == 12\nA1a(dec) == -2\nA1v(t2) == 0\nA1x(t2) - A1x(t1) == {way_m}\n"
     scene = ground(parse_program(HERO.format("E, N", "dec") + told), T)
-    assert decide(Question(scene, read_structure(scene.program), limits_of(scene)), 2.0).answer in answers
+    assert decide(Question(scene, read_structure(scene.program), limits_of(scene)), 0.5).answer in answers
 
 
 @pytest.mark.parametrize(
@@ -117,7 +119,8 @@ def test_what_is_undecided_says_what_is_amiss(broken: Broken, words: str, monkey
     assert found.reason.endswith(words)
 
 
-def test_clashes_carry_the_words_of_the_description() -> None:
+def test_clashes_carry_the_words_of_the_description(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(suggestions, "_Trials", partial(suggestions._Trials, left_s=1.2))
     words = "it drives at 12 m/s"
     text = f'description: "When {words}, it stops."\n' + TOO_FAST.text.replace(
         "fast: A1v(t1) == 12", f"fast: A1v(t1) == 12  @5..{5 + len(words)}"

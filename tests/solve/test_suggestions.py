@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from dataclasses import replace
 from fractions import Fraction
+from functools import partial
 
 import pytest
 
@@ -17,6 +18,7 @@ from scenewright.program.text import parse_program
 from scenewright.request import Request, Stages
 from scenewright.roads import load_map
 from scenewright.roads.grounding import Scene, ground
+from scenewright.solve import suggestions
 from scenewright.solve.feasibility import check_feasibility
 from scenewright.solve.proofs.decide import Question
 from scenewright.solve.suggestions import Suggestion, suggest
@@ -45,6 +47,14 @@ def applied(scene: Scene, suggestion: Suggestion) -> Scene:
     raise AssertionError(f"{suggestion.what} is in no constraint")
 
 
+@pytest.fixture
+def proposed_sooner(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let less be tried, for tests of whether what is proposed works."""
+    monkeypatch.setattr(suggestions, "_Trials", partial(suggestions._Trials, left_s=1.2))
+    monkeypatch.setattr(suggestions, "_NEARER_S", 0.4)
+
+
+@pytest.mark.usefixtures("proposed_sooner")
 @pytest.mark.parametrize(
     "case",
     INFEASIBLE,
@@ -68,6 +78,7 @@ def test_what_cannot_happen_is_explained_by_what_clashes_and_every_suggestion_wo
         assert feasibility(applied(scene, suggestion), explain=False).answer == "feasible"
 
 
+@pytest.mark.usefixtures("proposed_sooner")
 @pytest.mark.parametrize(
     ("speed", "rate", "way"),
     [(Fraction(10), Fraction(2), Fraction(10)), (Fraction(8), Fraction(4), Fraction(8))],

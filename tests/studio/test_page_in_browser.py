@@ -5,7 +5,7 @@ from __future__ import annotations
 import dataclasses
 import json
 from collections.abc import Iterator
-from itertools import combinations
+from itertools import combinations, product
 from pathlib import Path
 from typing import Any
 
@@ -104,10 +104,10 @@ def test_replay_stops_at_the_end_and_begins_again(opened: Opened) -> None:
     assert opened.time < 1.0
 
 
-@pytest.mark.parametrize("time_s", [0.0, 3.3, 4.0, 9.51, 16.0])
-def test_seek_puts_the_boxes_where_the_trace_has_them(opened: Opened, run_dir: Path, time_s: float) -> None:
-    opened.page.evaluate("t => scenewright.seek(t)", time_s)
-    for name, states in read_trace(run_dir / "trace.parquet").actors.items():
+def test_seek_puts_the_boxes_where_the_trace_has_them(opened: Opened, run_dir: Path) -> None:
+    actors = read_trace(run_dir / "trace.parquet").actors
+    for time_s, (name, states) in product((0.0, 3.3, 4.0, 9.51, 16.0), actors.items()):
+        opened.page.evaluate("t => scenewright.seek(t)", time_s)
         x, y, degrees = opened.drawn(name)
         expected = [np.interp(time_s, states.time_s, values) for values in (states.x_m, states.y_m)]
         assert [x, y] == pytest.approx(expected, abs=2e-3)
@@ -211,8 +211,7 @@ def test_charts_read_values_under_the_pointer_and_follow_the_replay(opened: Open
     assert len(set(cursors)) == 1
 
 
-@pytest.mark.parametrize("width", [1280, 800, 390])
-@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize(("width", "scheme"), [(1280, "light"), (800, "dark"), (390, "light")])
 def test_nothing_scrolls_sideways(browser: Any, run_dir: Path, width: int, scheme: str) -> None:
     view = Opened(browser, write_page(run_dir), width, scheme)
     scrolled, shown = view.page.evaluate("[document.documentElement.scrollWidth, document.documentElement.clientWidth]")
