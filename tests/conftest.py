@@ -25,8 +25,8 @@ sys.path[:0] = [str(ROOT / "tests"), str(ROOT / "tools")]
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 
 # The same examples every time where a failure must be repeatable by others; fresh ones where somebody is looking.
-hypothesis.settings.register_profile("ci", deadline=None, derandomize=True)
-hypothesis.settings.register_profile("dev", deadline=None)
+hypothesis.settings.register_profile("ci", deadline=None, derandomize=True, max_examples=60)
+hypothesis.settings.register_profile("dev", deadline=None, max_examples=60)
 hypothesis.settings.load_profile("ci" if os.environ.get("CI") else "dev")
 
 
