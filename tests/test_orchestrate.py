@@ -40,7 +40,7 @@ def test_sentence_file_program_and_text_of_a_program_are_one_scenario(tmp_path: 
     (tmp_path / "left turn.txt").write_text(SENTENCE, encoding="utf-8")
     (tmp_path / "turn.scene").write_text(program_text(), encoding="utf-8")
     sources = [SENTENCE, str(tmp_path / "left turn.txt"), str(tmp_path / "turn.scene"), program_text()]
-    found = [orchestrate(Request(source, FINE)) for source in sources]
+    found = [orchestrate(Request(source, FINE, replan_hz=4.0)) for source in sources]
     assert {result.status for result in found} == {"success"}
     assert [result.understanding is not None for result in found] == [True, True, False, False]
     traces = [result.run.trace for result in found if result.run is not None]
@@ -227,7 +227,8 @@ def test_tolerance_decides_the_status() -> None:
     statuses = set()
     for ego in ("idm", "noisy", "stop-and-go"):
         for name, tolerance in (("tight", TIGHT), ("loose", LOOSE)):
-            result = orchestrate(Request(SENTENCE, FINE, ego=ego, mode="open", tolerance=name, seed=4))
+            request = Request(SENTENCE, FINE, ego=ego, mode="open", tolerance=name, seed=4, explain="nothing")
+            result = orchestrate(request)
             assert result.verdict is not None
             assert (result.status == "success") == result.verdict.holds_at(tolerance)
             statuses.add(result.status)

@@ -155,6 +155,7 @@ def test_ego_that_never_comes_to_its_place(tmp_path: Path, monkeypatch: pytest.M
         "        return -3.0 if observation.others and observation.time_s > 1.0 else 0.0\n"
     )
     monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("scenewright.simulate.ending._STALLED_S", 4.0)
     result = run_case(Case(YIELDS, "halting_ego:Halts", 0, 0, FINE, takes=1))
     assert result.cause == "ego never met the condition"
 
