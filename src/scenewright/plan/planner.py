@@ -40,6 +40,8 @@ _ENOUGH_TICK, _ENOUGH_EACH = 0.01, 0.3
 _AGAIN_LED = 16
 # How many meetings of heroes are turned at most, and what is clear enough (m^2, summed over times: 14 cm once); chosen.
 _MOST_TURNS, _CLEAR_ENOUGH = 6, 0.02
+# By so much the ego may be foreseen otherwise (m, m/s) for a plan to be as good as it was: a fifth of a tight tolerance.
+_SAME_M, _SAME_MPS = 0.1, 0.05
 # A plan that misses no more than this (tight tolerances) does what was asked.
 GOOD = 0.2
 
@@ -207,12 +209,22 @@ class Planner(Standing):
             problem = Problem(self._asked, situation, self._meetings)
             more = min(_MOST_STEPS_MORE, int(_STEPS_A_SECOND * moved_s)) // len(self.scene.program.heroes)
             solution = solve(problem, problem.guess, _TICK_STEPS + more, _ENOUGH_TICK + self._enough)
-            self._keep(self._made(problem, solution, prediction))
-            foreseen = self.plan.profiles[EGO]
-            record = Replan(time_s, _status(solution), "daqp", 0.0, solution.missed.by, "", foreseen)
+            if solution.missed.by <= max(GOOD, self.plan.tolerance) or not self._is_as_foreseen(time_s, prediction):
+                self._keep(self._made(problem, solution, prediction))
+            foreseen, tolerance = self.plan.profiles[EGO], self.plan.tolerance
+            record = Replan(time_s, "sat" if tolerance <= GOOD else "relaxed", "daqp", 0.0, tolerance, "", foreseen)
         record = replace(record, wall_s=time.perf_counter() - started)
         self.records.append(record)
         return record
+
+    def _is_as_foreseen(self, time_s: float, prediction: Profile) -> bool:
+        """Whether at all knots to come the ego is foreseen as the plan in force has it: that still does what it did."""
+        then, knots = self.plan.profiles[EGO], (p.knot_times_s.values() for p in self.plan.profiles.values())
+        for at_s in (at_s for times in knots for at_s in times if at_s > time_s):
+            now, before = prediction.state(at_s), then.state(at_s)
+            if abs(now[0] - before[0]) > _SAME_M or abs(now[1] - before[1]) > _SAME_MPS:
+                return False
+        return True
 
     def _go_on(self, time_s: float) -> None:
         """Let heroes whose plan is over brake for bends, and keep clear of those that go first, the ego too.
