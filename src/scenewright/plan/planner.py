@@ -40,7 +40,7 @@ _ENOUGH_TICK, _ENOUGH_EACH = 0.01, 0.3
 _AGAIN_LED = 16
 # How many meetings of heroes are turned at most, and what is clear enough (m^2, summed over times: 14 cm once); chosen.
 _MOST_TURNS, _CLEAR_ENOUGH = 6, 0.02
-# By so much the ego may be foreseen otherwise (m, m/s) for a plan to be as good as it was: a fifth of a tight tolerance.
+# By so much (m, m/s) the ego may be foreseen otherwise for a plan to be as good as it was: a fifth of what is tight.
 _SAME_M, _SAME_MPS = 0.1, 0.05
 # A plan that misses no more than this (tight tolerances) does what was asked.
 GOOD = 0.2
