@@ -143,7 +143,7 @@ class Planner(Standing):
         self._joint_s = {h: self.plan.profiles[h].knot_times_s[self._name(h)] for h in self.structure.triggers}
         missed, wall_s = best.solution.missed, time.perf_counter() - started
         foreseen = self.plan.profiles[EGO]
-        self.records = [Replan(0.0, _status(best.solution), "daqp", wall_s, missed.by, "", foreseen)]
+        self.records = [Replan(0.0, _status(missed.by), "daqp", wall_s, missed.by, "", foreseen)]
         return Attempt(self.plan, missed, self._steps)
 
     def _keep(self, found: _Found) -> None:
@@ -212,7 +212,7 @@ class Planner(Standing):
             if solution.missed.by <= max(GOOD, self.plan.tolerance) or not self._is_as_foreseen(time_s, prediction):
                 self._keep(self._made(problem, solution, prediction))
             foreseen, tolerance = self.plan.profiles[EGO], self.plan.tolerance
-            record = Replan(time_s, "sat" if tolerance <= GOOD else "relaxed", "daqp", 0.0, tolerance, "", foreseen)
+            record = Replan(time_s, _status(tolerance), "daqp", 0.0, tolerance, "", foreseen)
         record = replace(record, wall_s=time.perf_counter() - started)
         self.records.append(record)
         return record
@@ -272,5 +272,5 @@ class Planner(Standing):
         return _ENOUGH_EACH * (len(self.scene.program.heroes) - 1)
 
 
-def _status(solution: Solution) -> str:
-    return "sat" if solution.missed.by <= GOOD else "relaxed"
+def _status(missed: float) -> str:
+    return "sat" if missed <= GOOD else "relaxed"
