@@ -76,6 +76,19 @@ def test_who_stops_for_some_time_stands_for_it() -> None:
         read("The ego has an open way. The hero brakes to a standstill for 3 s.")
 
 
+def test_what_is_told_behind_a_passing_is_after_it_or_meanwhile_which_is_asked() -> None:
+    start = (
+        "The ego has an open way. The hero is 40 m from its stop line. When the ego is 30 m from the conflict point, "
+    )
+    text = f"{start}the hero goes first. It accelerates at 2 m/s^2."
+    story = read(text)
+    (question,) = (each for each in story.questions if "accelerates" in each.text)
+    assert [deed.verb for deed in story.deeds] == [Verb.DRIVE, Verb.DRIVE, Verb.SPEED_UP]
+    meanwhile = read(text, {question.slot: "meanwhile"})
+    assert [deed.verb for deed in meanwhile.deeds] == [Verb.DRIVE, Verb.SPEED_UP]
+    assert meanwhile.deeds[1].throughout == story.deeds[2].throughout
+
+
 def test_who_stands_at_the_start_stands_until_it_does_something() -> None:
     start = "The ego has an open way. A truck stands at the stop line. When the ego is 30 m from the conflict point, "
     story = read(f"{start}the truck sets off.")

@@ -99,8 +99,9 @@ def told_before(story: Narrative, clause: Clause) -> Doing | None:
     verb = st.Verb.BRAKE if clause.deed == "stop" else clause.deed
     if own is None or clause.ordinal:
         return None
-    if own.turns and verb in CHANGES and not clause.says_more_than("deed", "rates"):
-        ways = ["after its turn", "while it turns"]
+    closed = own.verb == st.Verb.DRIVE and own.ends is not None and own.begins != st.START
+    if (own.turns or closed) and verb in CHANGES and not clause.says_more_than("deed", "rates"):
+        ways = ["after its turn", "while it turns"] if own.turns else ["after that", "meanwhile"]
         asked = f"When is this: {clause.quote.text}"
         if story.ask(f"turn {clause.quote.start}", asked, ways, 0, clause.quote) == ways[1]:
             own.verb = verb or own.verb
