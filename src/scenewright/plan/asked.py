@@ -81,7 +81,7 @@ class Asked:
         self.looks, self.stretches = self._make_looks()
         at_triggers = {key for instant in structure.triggers.values() for key in instant}
         still_open = {each.name for each in scene.open_parameters()}
-        constraints = tuple(  # what is asked of the ego alone is nobody's to plan, unless it tells of what is
+        constraints = tuple(  # of the ego alone: only what tells when a trigger comes, or an open parameter's value
             c
             for c in scene.program.constraints
             if actors_of(c.formula) != {EGO}

@@ -376,6 +376,7 @@ def test_who_is_stopped_stands(start: str, told: str) -> None:
         ("increases its speed to 13 m/s", "begins to speed up until it drives at 13 m/s"),
         ("brakes with a constant deceleration of 3 m/s^2", "begins to brake at 3 m/s^2"),
         ("stops for 3 s and starts driving", "Then the hero stands still for 3 s."),
+        ("brakes to 5 m/s, then accelerating to 13 m/s", "Then the hero speeds up until it drives at 13 m/s"),
         ("drives on, speeding up to 13 m/s", "begins to speed up until it drives at 13 m/s"),
     ],
 )

@@ -73,7 +73,8 @@ def acts_of(story: Narrative, items: list[Clause], happens: bool) -> list[Clause
         if acts:
             story.tell(item)
         before = found[-1] if found and found[-1].subject == item.subject else Clause(item.quote)
-        if item.deed in CHANGES and item.quote.text.split()[0].endswith("ing") and before.deed is not None:
+        beside = item.quote.text.split()[0].endswith("ing") and "then" not in item.notes
+        if item.deed in CHANGES and beside and before.deed is not None:
             if before.deed != st.Verb.DRIVE or before.says_more_than("deed"):  # "turns left, accelerating at 2 m/s^2"
                 story.refuse(
                     "it is not clear whether this is done then or meanwhile", item.quote, "say 'then', or 'while'"
