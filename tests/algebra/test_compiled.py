@@ -35,6 +35,14 @@ def test_values_are_those_of_the_polynomials(seed: int) -> None:
 
 
 @given(seed=SEEDS)
+def test_changes_are_those_of_the_gradients(seed: int) -> None:
+    found, _, point = compiled(seed)
+    slopes = np.random.default_rng(seed).uniform(-2.0, 2.0, (len(point), 5))
+    slopes[-1] = 0.0  # a one stays one
+    assert found.along(point, slopes) == pytest.approx(found.gradients(point) @ slopes)
+
+
+@given(seed=SEEDS)
 def test_gradients_are_those_of_the_values(seed: int) -> None:
     found, _, point = compiled(seed)
     gradients = found.gradients(point)

@@ -10,7 +10,7 @@ import pytest
 from scenewright.explain.in_way import InWay, hero_in_way
 from scenewright.orchestrate import orchestrate, set_up
 from scenewright.request import Request, Result, Stages
-from stories import STORIES, driven
+from stories import STORIES, driven, program
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -33,7 +33,18 @@ def test_who_stops_for_a_hero_is_not_to_blame() -> None:
     assert result.verdict is not None
     assert result.verdict.cause is not None
     assert result.verdict.cause.kind == "way"
-    assert "The ego slowed down for the hero before the trigger" in result.verdict.cause.text
+    assert "The ego slowed down for the hero before that was to be in its way" in result.verdict.cause.text
+
+
+def test_until_the_ego_has_come_who_is_to_be_later_is_in_its_way() -> None:
+    """After its trigger the hero creeps to where it is to pass 2 s after the ego, which brakes for it."""
+    later = "A0(t1) == A1(t1)\nA0x(t1) == conflict_point - 45\nA1x(t1) == conflict_point - 16\n"
+    passes = "A0x(t2) == conflict_point\nA1x(t2) == conflict_point\nA1(t2) - A0(t2) == 2\n"
+    result = orchestrate(Request(program("S, E", "t0, go, t1, go, t2", later + passes, "E"), ego="idm", takes=1))
+    assert result.status == "failure"
+    assert result.verdict is not None
+    assert result.verdict.cause is not None
+    assert result.verdict.cause.kind == "way"
 
 
 def test_nobody_slows_down_for_who_is_behind() -> None:

@@ -11,8 +11,8 @@ from functools import cache
 import pytest
 
 from scenewright.explain.ways_out import ways_out
-from scenewright.judge.tolerance import TIGHT
-from scenewright.judge.verdict import Cause, Verdict
+from scenewright.judge.tolerance import TIGHT, Leaf
+from scenewright.judge.verdict import Cause, Condition, Verdict
 from scenewright.orchestrate import orchestrate, set_up
 from scenewright.program.types import Program
 from scenewright.request import Request, Result, Stages
@@ -93,6 +93,19 @@ def test_what_never_came_is_no_number_to_try() -> None:
     ways_out(world.scene, endless, TIGHT, lambda *_: False, said.append)
     assert said
     assert not any("inf" in each for each in said)
+
+
+def test_what_was_off_by_tolerances_is_tried_in_the_unit_of_the_number() -> None:
+    """Of what lasts, and of alternatives, a verdict knows no number that was measured."""
+    text = STORIES["goes first, distance"] + "probe: always[A0(t0), A0(t1)] (A0v <= 6)\n"
+    world: World = set_up(Request(text), Stages(None))[0]
+    for off, first in ((8.0, "8 m/s"), (math.inf, "9 m/s")):
+        cause, whole = Cause("ego", "", {"condition": "probe", "off_tolerances": off}), verdict_to_mend()
+        probe = Condition("probe", "outcome", "", None, None, off, "", Leaf(0.25 * off, "speed"))
+        verdict = replace(whole, cause=cause, conditions=(*whole.conditions, probe))
+        said: list[str] = []
+        ways_out(world.scene, verdict, TIGHT, lambda *_: False, said.append)
+        assert first in said[0]
 
 
 def test_trying_ends_after_some_and_says_how_many() -> None:

@@ -57,7 +57,7 @@ class Rushes:
 
     def step(self, observation: Observation, dt_s: float) -> float:
         """Return an acceleration (m/s^2)."""
-        return 4.0 if observation.others and 5.0 < observation.time_s < 6.0 else 0.0
+        return 4.0 if observation.others and 4.0 < observation.time_s < 5.0 else 0.0
 
 
 def test_a_later_take_succeeds_where_the_first_missed_and_is_named(tmp_path: Path) -> None:

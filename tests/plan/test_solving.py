@@ -11,9 +11,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from situations import Array, near, problem_of
 
-from scenewright.plan.problem import Missed
+from scenewright.plan.problem import DAMPING, Missed
 from scenewright.plan.rows import Rows
-from scenewright.plan.solving import Solution, solve
+from scenewright.plan.solving import Solution, _step, solve
 from stories import STORIES
 
 
@@ -110,3 +110,27 @@ def test_the_same_problem_has_the_same_solution(name: str) -> None:
     again = solve(problem, near(problem, 1), 6)
     assert np.array_equal(first.z, again.z)
     assert (first.cost, first.missed, first.steps) == (again.cost, again.missed, again.steps)
+
+
+@pytest.mark.parametrize("name", STORIES)
+def test_of_linear_rows_no_other_step_is_better(name: str) -> None:
+    """Most bounds are left out of the convex problem: it is as good as if they were in it."""
+    problem = problem_of(STORIES[name])
+    z = near(problem, 3, 0.3)
+    costs, bounds, _ = problem.rows(z)
+    step, _ = _step(problem, z, costs, bounds, 1.0)
+    assert step is not None
+    longest, most, levels = problem.step, bounds.most, bounds.values
+    softened = np.sqrt(np.minimum(1.0, most / np.maximum(levels, 1e-9)))
+
+    def cost(x: Array) -> float:
+        over = np.maximum(softened * (levels + bounds.slopes @ (x * longest)), 0.0)
+        left = costs.values + costs.slopes @ (x * longest)
+        return 0.5 * float(left @ left + over @ over + DAMPING**2 * x @ x)
+
+    low, high = (np.clip((bound - z) / longest, -1.0, 1.0) for bound in (problem.low, problem.high))
+    chance, best = np.random.default_rng(0), step / longest
+    for size in (1e-4, 1e-3, 1e-2, 0.1, 1.0):
+        for _ in range(40):
+            other = np.clip(best + size * chance.standard_normal(len(best)), low, high)
+            assert cost(other) >= cost(best) - 1e-6 * (1.0 + cost(best))

@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 from many_heroes import PROGRAMS, drive
 
+from scenewright.drive.protocol import EgoStart, Observation
 from scenewright.orchestrate import orchestrate
 from scenewright.request import Request, Result
 from stories import STEP_S, STORIES, Scripted, Stage, program
@@ -90,3 +91,40 @@ def test_a_run_goes_on_for_what_is_planned_though_the_ego_stands() -> None:
     assert result.run is not None
     ego = result.run.trace.actors["ego"]
     assert ego.speed_mps.min() < 0.1
+
+
+@pytest.mark.parametrize(
+    ("asked", "status"),
+    [
+        ("A0x(t2) == turn_end + 80\nA0v(t2) >= 5", "success"),
+        ("A0x(t2) >= turn_end + 80\nA0v(t2) >= 5", "success"),
+        ("A0x(t2) == turn_end + 80\nA0(t2) - A0(t1) <= 20", "success"),
+        ("A0x(t2) == turn_end + 80\nalways[A0(t1), A0(t2)] (A0v >= 5)", "failure"),
+        ("A0x(t2) == turn_end + 80\nnever[A0(t1), A0(t2)] (A0v <= 5)", "failure"),
+    ],
+)
+def test_a_run_goes_on_until_the_ego_is_where_it_is_asked_to_be(asked: str, status: str) -> None:
+    """The hero has done all long before; an ego that crawls at last is seen to."""
+    trigger = "A0x(t0) == conflict_point - 120\nA0(t1) == A1(t1)\nA0x(t1) == conflict_point - 30\n"
+    hero = f"A1x(t1) == conflict_point - 18\nA1x(t2) == conflict_point - 6\nA1v(t2) == 0\n{asked}\n"
+    crawls = f"{__name__}:CrawlsAtLast" if status == "failure" else "constant"
+    result = ends(program("E, N", "t0, go, t1, dec, t2", trigger + hero), crawls)
+    assert result.status == status
+    assert result.run is not None
+    ego = result.run.trace.actors["ego"]
+    assert ego.s_m[-1] >= result.scene.landmarks_m[0]["junction_end"] + 60.0
+    if status == "failure":
+        assert result.verdict is not None
+        assert result.verdict.cause is not None
+        assert "tight tolerances" in result.verdict.cause.text
+
+
+class CrawlsAtLast:
+    """An ego that holds its speed, and slows down to 4 m/s once it is well past the junction."""
+
+    def reset(self, start: EgoStart) -> None:
+        """Begin."""
+
+    def step(self, observation: Observation, dt_s: float) -> float:
+        """Return an acceleration (m/s^2)."""
+        return -3.0 if (observation.ego.s_m or 0.0) > 350.0 and observation.ego.speed_mps > 4.0 else 0.0

@@ -23,7 +23,7 @@ from scenewright.solve.feasibility import check_feasibility
 from scenewright.solve.proofs.decide import Question
 from scenewright.solve.suggestions import Suggestion, suggest
 from scenewright.units import decimal_fraction, format_fraction
-from stories import STORIES
+from stories import STORIES, program
 
 T = load_map("t_intersection")
 
@@ -116,6 +116,19 @@ def test_every_suggestion_makes_it_possible() -> None:
         further = suggestion.nearest + 0.05 * (suggestion.value - suggestion.nearest)
         short = text.replace(formula, f"{formula.removesuffix(number)}{further:.4f}")
         assert answer(short) == "infeasible"
+
+
+def test_no_suggestion_is_off_by_the_rounding_of_what_was_found() -> None:
+    """At least 2 s at no less than 6.9 m/s, then to a stand: 9 + 6.9 / 2 + 6.9^2 / 8 m, a millimetre more than 18.4."""
+    hero = "A1x(t1) == conflict_point - 40\nA1v(t1) == 12\nalways[A1(t1), A1(t1) + 2] (A1v >= 6.9)\n"
+    rest = "A0(t1) == A1(t1)\nA1x(t2) == conflict_point - 23\nA1v(t2) == 0\nA1(t2) - A1(t1) >= 2\n"
+    text = program("E, N", "t0, go, t1, dec, t2", hero + rest)
+    scene = ground(parse_program(text), T)
+    question = Question(scene, read_structure(scene.program), limits_of(scene))
+    where = next(c.id for c in scene.program.constraints if print_expression(c.formula).startswith("A1x(t1)"))
+    (found,) = suggest(question, {where})
+    assert found.nearest == pytest.approx(41.401, abs=0.02)
+    assert answer(text.replace("point - 40", f"point - {found.nearest}")) == "feasible"
 
 
 @pytest.mark.parametrize(

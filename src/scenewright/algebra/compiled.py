@@ -10,7 +10,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from scenewright.algebra.polynomials import All, Atom, Formula, Some, atoms
+from scenewright.algebra.polynomials import All, Atom, Formula, Some, atoms, conjuncts
 
 Array = NDArray[np.float64]
 
@@ -32,9 +32,12 @@ class Compiled:
     """
 
     def __init__(self, formulas: Sequence[Formula], size: int) -> None:
-        self._formulas = formulas
-        self.atoms = [part for formula in self._formulas for part in atoms(formula)]
+        self._formulas = formulas  # comparisons are known by what they are in memory
+        self.atoms = [part for formula in formulas for part in atoms(formula)]
         self._numbers = {id(part): number for number, part in enumerate(self.atoms)}
+        held = list(conjuncts(formulas))
+        self._always = {self._numbers[id(part)] for part in held if isinstance(part, Atom)}
+        self._choices = [part for part in held if isinstance(part, Some)]
         owner, factor, left, right = [], [], [], []
         for number, atom in enumerate(self.atoms):
             for key, coefficient in atom.left.terms.items():
@@ -43,6 +46,7 @@ class Compiled:
                 left.append(key[0] if key else size)
                 right.append(key[1] if len(key) > 1 else size)
         self._owner, self._factor = np.array(owner, dtype=np.intp), np.array(factor)
+        self._begins = np.unique(self._owner, return_index=True)  # where the terms of each begin that has any
         self._left, self._right = np.array(left, dtype=np.intp), np.array(right, dtype=np.intp)
         self.equal = np.array([atom.relation == "==" for atom in self.atoms], dtype=bool)
         self.strict = np.array([atom.relation == "<" for atom in self.atoms], dtype=bool)
@@ -60,10 +64,19 @@ class Compiled:
         ) + np.bincount(self._owner * width + self._right, self._factor * point[self._left], minlength=count * width)
         return flat.astype(np.float64, copy=False).reshape(count, width)
 
+    def along(self, point: Array, slopes: Array) -> Array:
+        """Return how every left side changes with what unknowns depend on, as `slopes` say, shape (unknowns + 1, n)."""
+        left, right = ((self._factor * point[k])[:, None] for k in (self._left, self._right))
+        found = np.zeros((len(self.atoms), slopes.shape[1]))
+        if len(self._owner):
+            owners, begins = self._begins
+            found[owners] = np.add.reduceat(right * slopes[self._left] + left * slopes[self._right], begins)
+        return found
+
     def chosen(self, errors: Array) -> list[int]:
         """Return the comparisons that are to hold; of alternatives those of the one that is nearest to holding."""
-        found = (number for formula in self._formulas for number in self._nearest(formula, errors)[1])
-        return list(dict.fromkeys(found))
+        found = (number for formula in self._choices for number in self._nearest(formula, errors)[1])
+        return sorted(self._always.union(found))
 
     def _nearest(self, formula: Formula, errors: Array) -> tuple[float, list[int]]:
         """Return by how much a formula fails, and the comparisons on which that rests."""

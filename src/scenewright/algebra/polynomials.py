@@ -236,6 +236,15 @@ def atoms(formula: Formula) -> Iterator[Atom]:
             yield from atoms(part)
 
 
+def conjuncts(formulas: Iterable[Formula]) -> Iterator[Atom | Some]:
+    """Yield what holds in every case: comparisons, and choices."""
+    for part in formulas:
+        if isinstance(part, All):
+            yield from conjuncts(part.parts)
+        else:
+            yield part
+
+
 # -- text --------------------------------------------------------------------------------------------------------------
 def smtlib(unknowns: Sequence[Unknown], formulas: Sequence[Named]) -> str:
     """Return the problem as text: unknown i is ``u<i>``."""

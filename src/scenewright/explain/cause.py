@@ -129,11 +129,11 @@ def _denied(
         # Where it starts, and when a trigger comes, is not in its hands alone.
         its_own = condition.id in alone and condition.kind not in ("initial", "trigger")
         if its_own and of_both.isdisjoint(knots_of(alone[condition.id].formula)):
-            words = in_words(program, alone[condition.id])
-            off = "" if condition.error is None else f", off by {abs(condition.error):.2f} {condition.unit}".rstrip()
+            words, told = in_words(program, alone[condition.id]), condition.off_by
+            off = "off" if condition.required is not None else "off_tolerances"
             return Finding(
-                f'the ego alone decides on "{words}", and did not do it{off}',
-                {"condition": condition.id, "proof": [str(condition.text)], "off": condition.error},
+                f'the ego alone decides on "{words}", and did not do it' + (told and f", off by {told}"),
+                {"condition": condition.id, "proof": [str(condition.text)], off: condition.error},
             )
     return None
 
@@ -155,7 +155,7 @@ def _begun_so(run: Run, condition: Condition) -> Finding:
             f"it brakes with {condition.measured or 0.0:.1f} m/s^2 at once",
             evidence,
         )
-    off = "" if condition.error is None else f" by {abs(condition.error):.2f} {condition.unit}".rstrip()
+    off = condition.off_by and f" by {condition.off_by}"
     return Finding(f'no first plan was found that does all that was asked: it misses "{condition.text}"{off}', evidence)
 
 

@@ -2,7 +2,8 @@
 
 What enters: a world and what was driven in it. What leaves: an `InWay` with its evidence, or None. Whether it slowed
 down for somebody is found by driving it again from the same start, alone on its road: nothing else is different there.
-From its trigger on a hero is where it is to be, and what the ego does is an answer to the test.
+From its trigger on, or from when the ego has come where a hero is to be the later one, that is where it is to be, and
+what the ego does is an answer to the test.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ import numpy as np
 
 from scenewright.errors import PolicyError
 from scenewright.judge.tolerance import TIGHT, FloatArray
+from scenewright.plan.asked import Asked
 from scenewright.simulate.ending import ROUTE_END_M
 from scenewright.simulate.loop import Run
 from scenewright.simulate.world import World
@@ -44,16 +46,21 @@ class InWay:
     def __str__(self) -> str:
         when = f"at {self.time_s:.1f} s, {self.apart_m:.0f} m away"
         return (
-            f"the ego slowed down for {called(self.hero)} before the trigger: {when}, it drove {self.ego_mps:.1f} m/s, "
-            f"and drives {self.alone_mps:.1f} m/s where it is alone"
+            f"the ego slowed down for {called(self.hero)} before that was to be in its way: {when}, it drove "
+            f"{self.ego_mps:.1f} m/s, and drives {self.alone_mps:.1f} m/s where it is alone"
         )
 
 
 def hero_in_way(world: World, run: Run) -> InWay | None:
-    """Return the hero for which the ego slowed down before the last trigger was acted upon; None for nobody."""
+    """Return the hero for which the ego slowed down while none was to be there; None for nobody.
+
+    That is before the last trigger was acted upon, and where a hero is to come later than the ego until that has come.
+    """
     trace, plans, triggers = run.trace, run.last_plan.profiles, world.structure.trigger_knot
     begun_s = [plans[hero.id].knot_times_s.get(triggers(hero.id) or "", 0.0) for hero in world.scene.program.heroes]
-    until_s = min(max(begun_s), trace.duration_s)
+    second_to = Asked(world.scene, world.structure, world.limits).second_to.values()
+    came_s = [run.ego_knots_s.get(knot, trace.duration_s) for knot in second_to]
+    until_s = min(max([*begun_s, *came_s]), trace.duration_s)
     ego = trace.actors[world.scene.program.ego.name]
     alone = _drive_alone(world, float(ego.s_m[0]), float(ego.speed_mps[0]), until_s)
     if alone is None:

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import isfinite
 
-from scenewright.judge.tolerance import Tolerance
+from scenewright.judge.tolerance import TIGHT, Tolerance
 from scenewright.judge.verdict import Verdict, WayOut
 from scenewright.program.expressions import Number
 from scenewright.program.structure import Role, actors_of, read_structure
@@ -140,9 +140,10 @@ def _measured(scene: Scene, verdict: Verdict, failed: Sequence[str]) -> Iterator
                 for sign in (1, -1):  # a rate of slowing down is often written without its sign
                     if abs(sign * float(lever.value) - condition.required) < _SAME:
                         yield lever, Fraction(sign * condition.measured)
-            elif name == named.get("condition") and named.get("off"):
-                for sign in (1, -1):
-                    yield lever, lever.value + sign * Fraction(named["off"])
+            elif name == named.get("condition"):
+                off = named.get("off") or TIGHT.of(lever.dimension) * (named.get("off_tolerances") or 0.0)
+                for sign in (1, -1) if isfinite(off) else ():
+                    yield lever, lever.value + sign * Fraction(off)
 
 
 def _readable(scene: Scene, lever: Lever, value: Fraction) -> _Trial:

@@ -55,6 +55,13 @@ class Condition:
         """Whether the condition holds within the tolerance."""
         return self.normalised_error(tolerance) <= 1.0
 
+    @property
+    def off_by(self) -> str:
+        """By how much it is missed, in words; nothing where there is no number for it."""
+        if self.error is None or not math.isfinite(self.error):
+            return ""
+        return f"{abs(self.error):.2f} {'tight tolerances' if self.required is None else self.unit}".rstrip()
+
     def as_dict(self) -> dict[str, Any]:
         """Return the condition in the form of `verdict.json`."""
         return {

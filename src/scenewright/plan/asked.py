@@ -29,7 +29,7 @@ from scenewright.program.structure import (
     speeds_told_at,
     stands_at_end,
 )
-from scenewright.program.types import EGO
+from scenewright.program.types import EGO, Actor
 from scenewright.roads.grounding import Scene
 from scenewright.roads.model import RoadMap
 from scenewright.roads.routes import Route
@@ -137,6 +137,8 @@ class Asked:
             if conflict is not None and conflict.kind != "following":
                 self.zones_m[hero.id] = conflict.zone_b_m[0] - self.wanted.clear_of_zone_m
 
+        self.second_to = {hero.id: knot for hero in scene.program.heroes if (knot := self._second_to(hero)) is not None}
+
     @property
     def size(self) -> int:
         """How many unknowns there are."""
@@ -162,6 +164,19 @@ class Asked:
                 if any(self.least_s[earlier, self.knot(hero.id, name)] >= 0.0 for earlier in self.of_ego):
                     found[hero.id] = name
         return found
+
+    def _second_to(self, hero: Actor) -> str | None:
+        """Return the knot of the ego that what a hero does from its trigger on surely ends after; None for none."""
+        name = self.structure.trigger_knot(hero.id)
+        if name is None or name == hero.sketch.knots[-1]:
+            return None
+        after = hero.sketch.knots[hero.sketch.knot_index(name) + 1]
+        begins, ends = self.knot(hero.id, name), self.knot(hero.id, after)
+        for knot in self.scene.program.ego.sketch.knots[1:]:
+            at = self.knot(EGO, knot)
+            if self.least_s[at, ends] >= 0.0 > self.least_s[at, begins]:
+                return knot
+        return None
 
     def knot(self, actor: int, name: str) -> int:
         """Return the instant of a knot."""
@@ -193,7 +208,7 @@ class Asked:
             speed_mps = max(float(point[speed]), self.wanted.moves_mps)
             norms[k] = TIGHT["time"] * speed_mps * max(abs(float(gradients[k, place])), 1e-9)
         levels, equal = values / norms, self._formulas.equal
-        changes = np.array([_along(gradient, slopes) for gradient in gradients]) / norms[:, None]
+        changes = self._formulas.along(point, slopes) / norms[:, None]
         missed = np.where(equal, np.abs(levels), levels)
         # An alternative that does not hold is none where nothing that is still to be planned changes it.
         settled = (missed > 1.0) & ~np.any(changes != 0.0, axis=1)
@@ -239,13 +254,6 @@ class Asked:
                     kinds.setdefault(self.events.unknowns[unknown].kind, unknown)
             if "place" in kinds and "speed" in kinds:
                 yield number, kinds["place"], kinds["speed"]
-
-
-def _along(gradient: Array, slopes: Array) -> Array:
-    """Return how a value changes with what unknowns depend on; each depends on few of many."""
-    used = np.flatnonzero(gradient)
-    found: Array = np.einsum("i,ij->j", gradient[used], slopes[used], optimize=False)
-    return found
 
 
 def number_of(value: Polynomial) -> int | None:

@@ -10,7 +10,6 @@ import time
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
-from itertools import product
 
 from scenewright.motion.profile import Profile, chain
 from scenewright.plan.afterwards import goes_on
@@ -92,6 +91,11 @@ class _Found:
     problem: Problem
     meetings: tuple[Meeting, ...]
 
+    @property
+    def does_all(self) -> bool:
+        """Whether it does what was asked, and who is to be first is it."""
+        return self.solution.missed.by <= GOOD and self.solution.missed.late_s <= 0.0
+
 
 @dataclass(slots=True)
 class Planner(Standing):
@@ -114,13 +118,16 @@ class Planner(Standing):
         meetings = meetings_of(self.scene)
         self._behind_ego = {hero.id: behind_ego(self.scene, hero.id) for hero in self._heroes}
         placed = bool(meetings) and not meet_later(self.scene.program, self.structure) and even(0.0, 1.0)[1]
-        # Who comes slowly can still do either; where nothing tells when, a slow guess would just stay slow.
-        for joint_s, pace in product(_JOINT_S if joint else (0.0,), reversed(_PACES) if placed else _PACES):
-            guesses, _ = even(joint_s, pace)
-            if placed:
-                self._meetings = in_order(meetings, self.scene, self.structure, guesses)
-            tries.append(self._planned_first(prediction, joint_s, guesses))
-            if meetings and tries[-1].solution.missed.by <= GOOD:
+        for joint_s in _JOINT_S if joint else (0.0,):
+            # Who comes slowly can still do either; where nothing tells when, a slow guess would just stay slow.
+            for pace in reversed(_PACES) if placed else _PACES:
+                guesses, _ = even(joint_s, pace)
+                if placed:
+                    self._meetings = in_order(meetings, self.scene, self.structure, guesses)
+                tries.append(self._planned_first(prediction, joint_s, guesses))
+                if tries[-1].does_all:
+                    break
+            if meetings and tries[-1].does_all:
                 break
         best = min(tries, key=lambda found: found.solution.cost)
         self._keep(best)

@@ -18,7 +18,7 @@ from scenewright.plan.asked import Asked
 from scenewright.plan.shooting import Leg, Moment, Shot
 from scenewright.plan.situation import Situation
 from scenewright.program.starts import TAILGATES_S
-from scenewright.program.types import Actor, PieceKind
+from scenewright.program.types import EGO, Actor, PieceKind
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
 
 Array = NDArray[np.float64]
@@ -291,7 +291,11 @@ class HeroRows:
         # hero that waited there would wait for ever.
         through = zone_m is not None and place_m > zone_m and self.now.lanes.apart.get(hero, (0.0,))[0] > 0.0
         if zone_m is not None and not through:
-            self.bounds.add_all(s_m - zone_m, d_s, wanted.out_of_way_price, wanted.out_of_way_most)
+            clear_s = until_s
+            if (second_to := self.asked.second_to.get(hero)) is not None:  # nor is who comes later in the way till then
+                clear_s = max(until_s, self.moments[self.asked.knot(EGO, second_to)].value(shot.z))
+            out = slice(first, int(np.searchsorted(shot.time, clear_s, side="right")))
+            self.bounds.add_all(shot.s[out] - zone_m, shot.d_s[out], wanted.out_of_way_price, wanted.out_of_way_most)
         caps = self.asked.caps[hero]
         most, slope = caps.at(s_m, caps.on_the_way_to(place_m)[0])
         self.bounds.add_all(v - most, d_v - slope[:, None] * d_s, wanted.price / _TIGHT_SPEED, wanted.over_sign_most)

@@ -84,28 +84,38 @@ def _step(problem: Problem, z: Array, costs: Rows, bounds: Rows, trusted: float)
     longest, size = problem.step, problem.size
     residuals, slopes = costs.values, costs.slopes * longest
     levels, rows, most = bounds.values, bounds.slopes * longest, bounds.most
-    matters = (levels > -np.abs(rows).sum(axis=1)) & np.any(rows != 0.0, axis=1)
-    levels, rows, most = levels[matters], rows[matters], most[matters]
     softened = np.sqrt(np.minimum(1.0, most / np.maximum(levels, 1e-9)))
     levels, rows = levels * softened, rows * softened[:, None]
-    # Each row has a slack of its own, so that its price is the same here as in the cost. Unknowns are scaled so that
-    # each curves the cost alike: the solver stops far from the best where some curve it a million times more.
-    count, curved = len(levels), _product(slopes.T, slopes) + DAMPING**2 * np.eye(size)
+    # Unknowns are scaled so that each curves the cost alike: the solver stops far from the best where some curve it a
+    # million times more.
+    curved, slope = _product(slopes.T, slopes) + DAMPING**2 * np.eye(size), _product(slopes.T, residuals[:, None])[:, 0]
     scales = 1.0 / np.sqrt(np.diag(curved))
-    hessian = np.eye(size + count)
-    hessian[:size, :size] = curved * scales[:, None] * scales
+    curved, slope, rows = curved * scales[:, None] * scales, scales * slope, rows * scales
     low, high = (np.clip((bound - z) / longest, -trusted, trusted) for bound in (problem.low, problem.high))
-    x, _, flag, _ = daqp.solve(
-        hessian,
-        np.concatenate([scales * _product(slopes.T, residuals[:, None])[:, 0], np.zeros(count)]),
-        np.ascontiguousarray(np.hstack([rows * scales, -np.eye(count)])),
-        np.concatenate([high / scales, np.full(count, _FREE), -levels]),
-        np.concatenate([low / scales, np.zeros(count), np.full(count, -_FREE)]),
-        np.zeros(size + 2 * count, dtype=np.int32),
-        primal_tol=_EXACT,
-        iter_limit=_MOST_ITERATIONS,
-    )
-    return None if flag < 1 else np.clip(scales * np.asarray(x)[:size], low, high) * longest, 0.0
+    # Few bounds matter: those that the best step without them breaks are put in, until it breaks no other. Each has a
+    # slack of its own, so that its price is the same here as in the cost.
+    counted = levels > 0.0
+    while True:
+        count = int(np.count_nonzero(counted))
+        hessian = np.eye(size + count)
+        hessian[:size, :size] = curved
+        x, _, flag, _ = daqp.solve(
+            hessian,
+            np.concatenate([slope, np.zeros(count)]),
+            np.ascontiguousarray(np.hstack([rows[counted], -np.eye(count)])),
+            np.concatenate([high / scales, np.full(count, _FREE), -levels[counted]]),
+            np.concatenate([low / scales, np.zeros(count), np.full(count, -_FREE)]),
+            np.zeros(size + 2 * count, dtype=np.int32),
+            primal_tol=_EXACT,
+            iter_limit=_MOST_ITERATIONS,
+        )
+        if flag < 1:
+            return None, 0.0
+        best = np.asarray(x)[:size]
+        broken = (levels + _product(rows, best[:, None])[:, 0] > _EXACT) & ~counted
+        if not np.any(broken):
+            return np.clip(scales * best, low, high) * longest, 0.0
+        counted |= broken
 
 
 def _product(left: Array, right: Array) -> Array:

@@ -16,12 +16,14 @@ from scenewright.program.structure import actors_of, knots_of, read_structure
 from scenewright.program.types import EGO, Program
 from scenewright.roads.grounding import Scene
 from scenewright.simulate.port import Snapshot
+from scenewright.solve.arrival import LinearCondition, linear_conditions
 from scenewright.solve.plan import PlanWorld
 
 LONGEST_RUN_S = float(LONGEST_S)  # what comes later is refuted before anything is driven
 # What is shown after the last knot, and how long an ego is waited for that has yet to pass, or that stands; chosen.
 _AFTER_HEROES_S, _WAIT_FOR_EGO_S, _STALLED_S = 2.0, 10.0, 20.0
 _SEEN_S = 0.5  # beyond what a stand has to last, for it to be seen to; chosen
+_THERE = 0.1  # so many metres, or metres a second, from what tells a moment it has come; chosen
 STANDS_MPS, _MOVES_MPS = 0.1, 0.5  # that of the manner; chosen
 ROUTE_END_M = 3.0  # who hardly moves so near to the end of its road has come to it: policies stop short of it; chosen
 
@@ -33,6 +35,10 @@ class Ending:
         self.scene, self._told, self._meets = scene, _told_times(scene.program), _meets_ego(scene.program)
         self._values = {name: float(value) for name, value in scene.parameters.items()}
         self._waits_until_s = 0.0  # for an ego that stands
+        self._awaited = _awaited_of(scene)
+        told = {name for c in scene.program.constraints for owner, name in knots_of(c.formula) if owner == EGO}
+        self._ego_told = told - self._awaited.keys()  # only a plan says when these come
+        self._first: dict[str, float] = {}
 
     def is_now(self, plans: Mapping[int, Profile], now: Snapshot) -> bool:
         """Whether the run is over; to be asked at every step.
@@ -46,7 +52,9 @@ class Ending:
         going = [h for h in heroes if now.actors[h].s_m < self.scene.routes[h].landmarks["route_end"]]
         last_knot_s = max((max(plans[hero].knot_times_s.values()) for hero in going), default=-_WAIT_FOR_EGO_S)
         stands_s = float(self.scene.program.manner.stands_s) + _SEEN_S
-        planned_s = max(self._told_s(plans), last_knot_s + max(_AFTER_HEROES_S, stands_s))
+        ego_told_s = (at_s for knot, at_s in plans[EGO].knot_times_s.items() if knot in self._ego_told)
+        planned_s = max(self._told_s(plans), last_knot_s + max(_AFTER_HEROES_S, stands_s), *ego_told_s)
+        awaits = self._awaits(now)
         if ego.speed_mps > STANDS_MPS or time_s == 0.0:
             self._waits_until_s = max(time_s + _STALLED_S, planned_s)
         end_m = route.landmarks["route_end"]
@@ -54,12 +62,22 @@ class Ending:
         waits = any(plans[hero].knot_times_s.get(knot, 0.0) > time_s for hero, knot in self._meets.items())
         if time_s >= LONGEST_RUN_S or time_s > self._waits_until_s or (at_end and waits):
             return True
-        if time_s < planned_s:
+        if time_s < planned_s or (awaits and not at_end):
             return False
         if time_s < last_knot_s + _WAIT_FOR_EGO_S and self._any_turning(now):
             return False
         passed = at_end or ego.s_m > route.landmarks.get("junction_end", end_m) + 5.0
         return passed or time_s >= last_knot_s + _WAIT_FOR_EGO_S
+
+    def _awaits(self, now: Snapshot) -> bool:
+        """Whether a moment of the ego has yet to come that a place, or what it has to do with others, tells."""
+        for name, condition in tuple(self._awaited.items()):
+            states = {actor: (now.actors[actor].s_m, now.actors[actor].speed_mps) for actor in condition.weights}
+            value, per_metre = condition.value(states), condition.weights[EGO][0]
+            passes = per_metre if len(states) == 1 and per_metre else -self._first.setdefault(name, value)
+            if value * passes >= 0.0 or abs(value) < _THERE:
+                del self._awaited[name]
+        return bool(self._awaited)
 
     def _told_s(self, plans: Mapping[int, Profile]) -> float:
         """Return the latest time that the program tells, as planned (s)."""
@@ -82,6 +100,19 @@ def _told_times(program: Program) -> list[ex.Term]:
     told: list[object] = [node.at for node in nodes if isinstance(node, ex.State | ex.Derived)]
     told += [edge for node in nodes if isinstance(node, ex.Temporal) for edge in (node.start, node.end)]
     return [time for time in told if isinstance(time, ex.Number | ex.Arithmetic)]
+
+
+def _awaited_of(scene: Scene) -> dict[str, LinearCondition]:
+    """Return what tells when the ego is at its own moments: a place, or the edge of a bound on it; else an equality."""
+    structure, found = read_structure(scene.program), dict[str, LinearCondition]()
+    conditions = linear_conditions(scene, structure, with_bounds=True)
+    equalities = {each.constraint_id for each in linear_conditions(scene, structure)}
+    for condition in sorted(conditions, key=lambda each: not each.weights.get(EGO, (0.0, 0.0))[0]):
+        (owner, name), *others = condition.moments
+        tells = condition.weights.get(EGO, (0.0, 0.0))[0] or condition.constraint_id in equalities
+        if owner == EGO and not others and tells and EGO in condition.weights:
+            found.setdefault(name, condition)
+    return found
 
 
 def _meets_ego(program: Program) -> dict[int, str]:

@@ -14,7 +14,7 @@ from scenewright.program.expressions import Compare, Number, ParameterRef, Term,
 from scenewright.program.printer import print_expression
 from scenewright.program.types import Constraint, Program
 from scenewright.roads.grounding import Scene
-from scenewright.solve.proofs.decide import Question, shown
+from scenewright.solve.proofs.decide import Question, decide, shown
 from scenewright.solve.proofs.forms import compared_dimension
 from scenewright.solve.proofs.witness import Witness
 from scenewright.translate.lines import in_words
@@ -132,8 +132,8 @@ class _Trials:
     question: Question
     left_s: float = _ALL_S
 
-    def witness(self, lever: Lever, value: Fraction | _Range, guesses: int = _GUESSES) -> Witness | None:
-        """Look for a witness with another number in the lever's place, or with any in a range."""
+    def asked(self, lever: Lever, value: Fraction | _Range) -> Question:
+        """Return the question with another number in the lever's place, or with any in a range."""
         scene, name = self.question.scene, lever.name
         known = {each: own for each, own in scene.parameters.items() if lever.number or each != name}
         if isinstance(value, tuple):
@@ -141,8 +141,11 @@ class _Trials:
         else:
             freed, program = {}, lever.put(scene.program, Number(value))
             known |= {} if lever.number else {name: value}
-        other = replace(scene, program=program, parameters=known)
-        found, took_s = shown(replace(self.question, scene=other, freed=freed), guesses)
+        return replace(self.question, scene=replace(scene, program=program, parameters=known), freed=freed)
+
+    def witness(self, lever: Lever, value: Fraction | _Range, guesses: int = _GUESSES) -> Witness | None:
+        """Look for a witness with another number in the lever's place, or with any in a range."""
+        found, took_s = shown(self.asked(lever, value), guesses)
         self.left_s -= took_s
         return found
 
@@ -179,11 +182,15 @@ class _Trials:
         return min(nearest, key=lambda candidate: abs(candidate - value))
 
     def readable(self, lever: Lever, best: Fraction) -> Fraction | None:
-        """Return a number near to `best` that is easy to read and does, too; None where none was seen to."""
+        """Return a number near to `best` that is easy to read and does, too; None where none was seen to.
+
+        A witness may be off by rounding, a proof is not: who takes the number is not to be told that it cannot be.
+        """
         every = (each for digits in _DECIMALS for each in _rounded(best, lever.value, digits))
         readable = dict.fromkeys(each for each in every if each != lever.value)
         tried = (each for each in (*readable, best) if self.left_s > 0.0)
-        return next((each for each in tried if self.witness(lever, each)), None)
+        does = (each for each in tried if self.witness(lever, each))
+        return next((e for e in does if decide(self.asked(lever, e), explain=False).answer != "infeasible"), None)
 
 
 def _rounded(found: Fraction, origin: Fraction, digits: int) -> tuple[Fraction, Fraction]:

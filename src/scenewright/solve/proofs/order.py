@@ -13,7 +13,7 @@ from itertools import permutations
 import numpy as np
 from numpy.typing import NDArray
 
-from scenewright.algebra.polynomials import ZERO, All, Atom, Formula, Polynomial, Unknown
+from scenewright.algebra.polynomials import ZERO, Atom, Formula, Polynomial, Unknown, conjuncts
 from scenewright.program.magnitudes import LONGEST_S
 from scenewright.solve.proofs.events import Events
 
@@ -21,20 +21,16 @@ Array = NDArray[np.float64]
 _PASSES = 2  # over all comparisons, to see between which places somebody is: enough for one that rests on another
 
 
-def conjuncts(formulas: Iterable[Formula]) -> Iterator[Atom]:
-    """Yield what is compared in every case."""
-    for part in formulas:
-        if isinstance(part, All):
-            yield from conjuncts(part.parts)
-        elif isinstance(part, Atom):
-            yield part
+def linear_of(formulas: Iterable[Formula]) -> list[Atom]:
+    """Return the linear comparisons that hold in every case."""
+    return [part for part in conjuncts(formulas) if isinstance(part, Atom) and part.left.degree == 1]
 
 
 # -- ranges -----------------------------------------------------------------------------------------------------------
 def tightened(unknowns: Sequence[Unknown], formulas: Iterable[Formula], passes: int = 1) -> list[Unknown]:
     """Return the unknowns with the ranges that linear comparisons leave."""
     found = list(unknowns)
-    linear = [part for part in conjuncts(formulas) if part.left.degree == 1]
+    linear = linear_of(formulas)
     for _ in range(passes):
         for part in linear:
             _narrow(part.left, found)
@@ -71,7 +67,7 @@ def least_differences(events: Events, formulas: Iterable[Formula] = ()) -> Array
     Comparisons of two times say it, and so do places that are known. Where that contradicts itself only what holds
     without them is in it: the contradiction is for a proof.
     """
-    linear = [part for part in conjuncts(formulas) if part.left.degree == 1]
+    linear = linear_of(formulas)
     least = _closed(events, [*_told(events, linear), *_by_places(events, linear)])
     return least if not np.any(np.diag(least) > 1e-9) else _closed(events, [])
 

@@ -9,6 +9,7 @@ soft rows meets all of it as well as it can. It proves nothing.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from fractions import Fraction
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +25,6 @@ Array = NDArray[np.float64]
 
 DONE, NEARLY_DONE = 1e-6, 5e-5  # scaled: 0.5 mm, 0.05 ms, 0.1 mm/s where rounded numbers leave no more
 _SCALE = {"time": 1.0, "place": 10.0, "speed": 2.0, "rate": 1.0, "other": 1.0}
-_BOUNDS = ("rate_low", "rate_high", "speed_low", "speed_high")
 _ENDS = np.array([_SCALE[kind] for kind in ("speed", "speed", "time", "place")])
 _EITHER_WAY = np.concatenate([np.zeros((4, 1)), np.eye(4), -np.eye(4)], axis=1)[:, :, None]
 _SOFT = 1e-5
@@ -130,7 +130,8 @@ class Search:
         """Return an actor's instants in the order of their times, and the laws between them."""
         line, point = self._lines[actor], np.append(point, 1.0)
         order = line.sorted(point)
-        return [line.instants[k] for k in order], line.laws_between(order, point)[0]
+        bounds, _ = line.bounds_between(order, point)
+        return [line.instants[k] for k in order], [Law(*map(Fraction, each)) for each in bounds.T.tolist()]
 
 
 class _Line:
@@ -138,8 +139,8 @@ class _Line:
 
     def __init__(self, events: Events, actor: int, least: Array, narrowings: Sequence[Narrowing]) -> None:
         self.instants = events.instants_of(actor)
-        self.law = events.law_of(actor)  # where nothing is narrower
-        self.narrowings = narrowings
+        self.bounds = _bounds_of(events.law_of(actor))  # where nothing is narrower
+        self.narrowings = [(each, _bounds_of(each.law)) for each in narrowings]
         self.before = least[np.ix_(self.instants, self.instants)] >= 0.0  # which certainly come before which
         times = [events.times[instant] for instant in self.instants]
         one = len(events.unknowns)  # behind all of them
@@ -160,8 +161,7 @@ class _Line:
         """Return the laws between neighbours: levels, slopes by all unknowns, and which are equal."""
         order = self.sorted(point)
         early, late = np.array(order[:-1], dtype=np.intp), np.array(order[1:], dtype=np.intp)
-        laws, even = self.laws_between(order, point)
-        bounds = np.array([[float(getattr(law, name)) for law in laws] for name in _BOUNDS])
+        bounds, even = self.bounds_between(order, point)
         times, place = self.time_factor * point[self.time], point[self.place]
         ends = (
             point[self.speed[early]],
@@ -186,14 +186,14 @@ class _Line:
         keep = keep.reshape(-1)
         return levels.reshape(-1)[keep], rows.reshape(-1, width)[keep], np.repeat(equal, count)[keep]
 
-    def laws_between(self, order: Sequence[int], point: Array) -> tuple[list[Law], NDArray[np.bool_]]:
-        """Return the law between each two neighbours, and whether there is to be one rate.
+    def bounds_between(self, order: Sequence[int], point: Array) -> tuple[Array, NDArray[np.bool_]]:
+        """Return the bounds of the law between each two neighbours (see `_conditions`), and where there is one rate.
 
         What ends at a place that is passed when it begins, or begins at one that is passed never, narrows nothing.
         """
         where, place = {self.instants[k]: number for number, k in enumerate(order)}, point[self.place]
-        laws, even = [self.law] * (len(order) - 1), np.zeros(len(order) - 1, dtype=bool)
-        for narrowing in self.narrowings:
+        bounds, even = np.tile(self.bounds[:, None], len(order) - 1), np.zeros(len(order) - 1, dtype=bool)
+        for narrowing, narrower in self.narrowings:
             begin = max(where[instant] for instant in narrowing.begins())
             end = min(where[instant] for instant in narrowing.ends())
             edge = where[narrowing.first if narrowing.up_to_place else narrowing.last]
@@ -201,8 +201,14 @@ class _Line:
             if narrowing.place is not None and past == narrowing.up_to_place:
                 continue
             even[begin:end] |= narrowing.even
-            laws[begin:end] = [law.meet(narrowing.law) for law in laws[begin:end]]
-        return laws, even
+            lows, highs = bounds[::2, begin:end], bounds[1::2, begin:end]
+            np.maximum(lows, narrower[::2, None], out=lows)
+            np.minimum(highs, narrower[1::2, None], out=highs)
+        return bounds, even
+
+
+def _bounds_of(law: Law) -> Array:
+    return np.array([float(each) for each in (law.rate_low, law.rate_high, law.speed_low, law.speed_high)])
 
 
 def _conditions(
