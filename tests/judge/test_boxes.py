@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from brute import collision_s, larger
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -85,5 +86,42 @@ def test_boxes_overlap_and_distance() -> None:
 
 def test_time_to_collision_of_boxes() -> None:
     standing = replace(boxes_at((24.0, 0, 0)), speed_mps=np.zeros(1))
-    assert times_to_collision_s(boxes_at((0, 0, 0)), standing) == pytest.approx([2.0], abs=0.11)
+    assert times_to_collision_s(boxes_at((0, 0, 0)), standing) == pytest.approx([2.0])
     assert times_to_collision_s(boxes_at((0, 10, 0)), standing) == [np.inf]
+    assert times_to_collision_s(boxes_at((22.0, 0, 0)), standing) == [0.0], "they overlap already"
+    assert times_to_collision_s(boxes_at((0, 0, np.pi)), standing) == [np.inf], "it drives away"
+    # At a right angle, at 10 m/s each: the first is where they cross from 1.7 to 2.3 s, the second from 2.25 or 2.31 s.
+    north = boxes_at((0, -25.5, np.pi / 2), (0, -26.1, np.pi / 2))
+    assert times_to_collision_s(boxes_at((-20, 0, 0), (-20, 0, 0)), north) == pytest.approx([2.25, np.inf])
+
+
+@settings(max_examples=60)
+@given(
+    headings=st.tuples(st.floats(-3.1, 3.1), st.floats(-3.1, 3.1)),
+    speeds=st.tuples(st.floats(0.0, 20.0), st.floats(0.0, 20.0)),
+    meets_s=st.floats(-1.0, 8.5),
+    aside_m=st.tuples(st.floats(-4.0, 4.0), st.floats(-4.0, 4.0)),
+)
+def test_time_to_collision_is_what_small_steps_find(
+    headings: tuple[float, float], speeds: tuple[float, float], meets_s: float, aside_m: tuple[float, float]
+) -> None:
+    """Two that would be `aside_m` of each other at some moment; contacts too short for a step are real, too."""
+    one, other = (
+        MovingBox(
+            CAR,
+            np.array([share * aside_m[0] - speed * meets_s * np.cos(heading)]),
+            np.array([share * aside_m[1] - speed * meets_s * np.sin(heading)]),
+            np.array([heading]),
+            np.array([speed]),
+        )
+        for share, heading, speed in zip((0.0, 1.0), headings, speeds, strict=True)
+    )
+    found_s, step_s = float(times_to_collision_s(one, other)[0]), 0.002
+    stepped_s = collision_s(one, other, step_s)
+    assert found_s <= stepped_s
+    if np.isfinite(stepped_s):
+        assert found_s > stepped_s - step_s - 1e-9
+    elif found_s < 8.0 - step_s:
+        large = larger(CAR, 0.05)
+        assert np.isfinite(collision_s(replace(one, box=large), replace(other, box=large), step_s)), "a graze"
+    assert times_to_collision_s(other, one) == pytest.approx([found_s])

@@ -5,7 +5,8 @@ What enters: poses as arrays, and box sizes. What leaves: arrays. It knows nothi
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Iterator
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +15,7 @@ from scenewright.judge.case import Box
 from scenewright.judge.tolerance import FloatArray
 from scenewright.trace.model import ActorTrace
 
-_HORIZON_S = np.arange(0.0, 8.0 + 1e-9, 0.1)
+_HORIZON_S, _STILL_MPS = 8.0, 1e-9
 # Between two samples a pose is no further from the straight line than this acceleration of any point of a box bends
 # it: more than brakes, bends and turns of the car about itself come to together. And into how many parts it is cut.
 _BENT_MPSS, _PARTS = 25.0, 40
@@ -61,18 +62,27 @@ def overlapping(a: MovingBox, b: MovingBox) -> NDArray[np.bool_]:
     near = np.hypot(a.x_m - b.x_m, a.y_m - b.y_m) <= reach_m(a.box, b.box)
     result = np.zeros(len(a.x_m), dtype=bool)
     if near.any():
-        result[near] = _corners_overlap(a.at(near), b.at(near))
+        result[near] = _boxes_overlap(a.at(near), b.at(near))
     return result
 
 
-def _corners_overlap(a: MovingBox, b: MovingBox) -> NDArray[np.bool_]:
-    corners_a, corners_b = a.corners(), b.corners()
-    overlap = np.ones(len(a.x_m), dtype=bool)
-    for heading in (a.heading_rad, a.heading_rad + np.pi / 2, b.heading_rad, b.heading_rad + np.pi / 2):
-        axis = np.stack([np.cos(heading), np.sin(heading)], axis=-1)[:, None, :]
-        along_a, along_b = (corners_a * axis).sum(-1), (corners_b * axis).sum(-1)
-        overlap &= (along_a.max(1) > along_b.min(1)) & (along_b.max(1) > along_a.min(1))
+def _boxes_overlap(a: MovingBox, b: MovingBox) -> NDArray[np.bool_]:
+    x, y = b.x_m - a.x_m, b.y_m - a.y_m
+    overlap = np.ones(len(x), dtype=bool)
+    for cos, sin, half in _axes(a, b):
+        overlap &= np.abs(x * cos + y * sin) < half
     return overlap
+
+
+def _axes(a: MovingBox, b: MovingBox) -> Iterator[tuple[FloatArray, FloatArray, FloatArray]]:
+    """Yield the four directions along which two boxes are apart if they are, and the half extents of both together."""
+    for own, other in ((a, b), (b, a)):
+        cos, sin = np.cos(own.heading_rad), np.sin(own.heading_rad)
+        turned = other.heading_rad - own.heading_rad
+        along, across = np.abs(np.cos(turned)), np.abs(np.sin(turned))
+        length, width = other.box.length_m, other.box.width_m
+        yield cos, sin, 0.5 * (own.box.length_m + length * along + width * across)
+        yield -sin, cos, 0.5 * (own.box.width_m + length * across + width * along)
 
 
 def distances_m(a: MovingBox, b: MovingBox) -> FloatArray:
@@ -128,22 +138,19 @@ def _corner_to_edge(points: FloatArray, polygon: FloatArray) -> FloatArray:
 
 
 def times_to_collision_s(a: MovingBox, b: MovingBox) -> FloatArray:
-    """Return when the boxes would touch if both kept speed and heading, infinite beyond 8 s, shape (N,)."""
-    later_a, later_b = _extrapolated(a), _extrapolated(b)
-    touching = overlapping(later_a, later_b).reshape(len(a.x_m), len(_HORIZON_S))
-    return np.where(touching.any(1), _HORIZON_S[touching.argmax(1)], np.inf)
+    """Return when the boxes would touch if both kept speed and heading, infinite beyond 8 s, shape (N,).
 
-
-def _extrapolated(moving: MovingBox) -> MovingBox:
-    def spread(values: FloatArray) -> FloatArray:
-        return np.repeat(values, len(_HORIZON_S))
-
-    way = (moving.speed_mps[:, None] * _HORIZON_S).ravel()
-    heading = spread(moving.heading_rad)
-    return replace(
-        moving,
-        x_m=spread(moving.x_m) + way * np.cos(heading),
-        y_m=spread(moving.y_m) + way * np.sin(heading),
-        heading_rad=heading,
-        speed_mps=spread(moving.speed_mps),
-    )
+    It is exact: along each axis that could separate them both keep their extent and close at an even speed, so they
+    overlap along it in one interval of time, and overlap while they do so along all four.
+    """
+    x, y = b.x_m - a.x_m, b.y_m - a.y_m
+    closing_x = a.speed_mps * np.cos(a.heading_rad) - b.speed_mps * np.cos(b.heading_rad)
+    closing_y = a.speed_mps * np.sin(a.heading_rad) - b.speed_mps * np.sin(b.heading_rad)
+    enters, leaves = np.zeros(len(x)), np.full(len(x), np.inf)
+    for cos, sin, half in _axes(a, b):
+        apart, closing = x * cos + y * sin, closing_x * cos + closing_y * sin
+        closes = np.abs(closing) > _STILL_MPS  # who does not is there always or never
+        meets, lasts = apart / np.where(closes, closing, 1.0), half / np.where(closes, np.abs(closing), 1.0)
+        enters = np.maximum(enters, np.where(closes, meets - lasts, np.where(np.abs(apart) < half, 0.0, np.inf)))
+        leaves = np.minimum(leaves, np.where(closes, meets + lasts, np.inf))
+    return np.where((enters < leaves) & (enters <= _HORIZON_S), enters, np.inf)

@@ -23,7 +23,7 @@ from scenewright.program.structure import Role, knots_of
 from scenewright.program.types import EGO, PieceKind
 from scenewright.translate.lines import told_formulas
 
-_INSTANT_S = 0.05  # times to collision are told in tenths
+_INSTANT_S = 0.001  # who touches another meets it at once: no way is divided by no time
 
 
 def start_condition(case: Case) -> Condition:
