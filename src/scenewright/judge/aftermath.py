@@ -53,8 +53,7 @@ class Aftermath:
         The first one between any two actors.
     closest_m, min_ttc_s, post_encroachment_s
         Between the ego and whoever it was least for. None where there is no such number: nobody was on a collision
-        course, or did not pass a conflict zone one after the other. Post-encroachment time is negative where both were
-        in the zone at once.
+        course, or no place was covered by one after the other.
     ego_hardest_braking_mps2, ego_hardest_braking_time_s
         How hard and when; until the first collision, after which the simulation drives the bodies through each other.
     acts_s, end_s
@@ -85,7 +84,7 @@ class Aftermath:
             # A hair's breadth is not to read as a touch.
             (self.closest_m, "closest {:.1g} m" if (self.closest_m or 0.0) < _NEAR_M else "closest {:.1f} m"),
             (self.min_ttc_s, "time to collision at least {:.1f} s"),
-            (self.post_encroachment_s, _passing(self.post_encroachment_s or 0.0)),
+            (self.post_encroachment_s, "passed {:.1f} s apart"),
         ]
         return "no collision; " + ", ".join([*(words.format(v) for v, words in measures if v is not None), braked])
 
@@ -106,17 +105,12 @@ def aftermath(case: Case, acts_s: float | None, pairs: Mapping[str, Mapping[str,
         collision,
         _least(pair["min_distance_m"] for pair in of_ego),
         _least(pair["min_ttc_s"] for pair in of_ego),
-        # Who drives through another has not passed it.
-        _least(pair["post_encroachment_time_s"] for pair in of_ego if pair["collision_time_s"] is None),
+        _least(pair["post_encroachment_time_s"] for pair in of_ego),
         0.0 - float(np.min(rates, initial=0.0)),  # and not -0.0
         float(states.time_s[np.argmin(rates)]),
         acts_s,
         case.end_s,
     )
-
-
-def _passing(apart_s: float) -> str:
-    return "passed {:.1f} s apart" if apart_s >= 0 else "both at once where their ways cross"
 
 
 def _least(values: Iterator[float | None]) -> float | None:

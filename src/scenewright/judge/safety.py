@@ -16,16 +16,14 @@ import numpy as np
 
 from scenewright.judge.aftermath import collision_at
 from scenewright.judge.boxes import closest_m, distances_m, moving_box, overlapping, times_to_collision_s
-from scenewright.judge.case import CannotJudge, Case
-from scenewright.judge.instants import first_crossing
+from scenewright.judge.case import Case
+from scenewright.judge.encroachment import post_encroachment_s
 from scenewright.judge.knots import Measured
 from scenewright.judge.verdict import Condition, bounded
 from scenewright.program.structure import placed_at
 from scenewright.program.types import EGO
-from scenewright.translate.phrases import called
 
 _SUB_STEPS = 5  # the samples, and four instants between each two
-_ONE_LINE_M = 0.1  # lines that merge are further apart than this a vehicle's length before they do
 _INSTANT_S = 0.001  # a collision at the trigger itself, or in the last instant of a run, is one, too
 
 
@@ -123,46 +121,16 @@ def _pair(case: Case, a: int, b: int) -> dict[str, Any]:
     box_b = moving_box(case.timelines[b].states, case.box(b), instants)
     hits = np.flatnonzero(overlapping(box_a, box_b))
     distance, when = closest_m(box_a, box_b)
-    every_tenth = np.arange(case.start_s, case.end_s + 1e-9, 0.1)
-    ttc = times_to_collision_s(
-        moving_box(case.timelines[a].states, case.box(a), every_tenth),
-        moving_box(case.timelines[b].states, case.box(b), every_tenth),
-    )
+    ttc = times_to_collision_s(box_a, box_b)
     soonest = int(np.argmin(ttc))
+    # Who drives through another has not passed it.
+    states = case.timelines[a].states, case.timelines[b].states
+    after_s = None if len(hits) else post_encroachment_s(*states, (case.box(a), case.box(b)))
     return {
         "collision_time_s": float(instants[hits[0]]) if len(hits) else None,
         "min_distance_m": distance,
         "min_distance_time_s": float(instants[when]),
         "min_ttc_s": float(ttc[soonest]) if np.isfinite(ttc[soonest]) else None,
-        "min_ttc_time_s": float(every_tenth[soonest]) if np.isfinite(ttc[soonest]) else None,
-        "post_encroachment_time_s": None if len(hits) else _post_encroachment_s(case, a, b),
+        "min_ttc_time_s": float(instants[soonest]) if np.isfinite(ttc[soonest]) else None,
+        "post_encroachment_time_s": after_s,
     }
-
-
-def _post_encroachment_s(case: Case, a: int, b: int) -> float | None:
-    """Return the time between one leaving the conflict zone and the other entering; negative where both were in it.
-
-    The zone is where one's box can be while the other's width covers the conflict point. None where they did not both
-    pass it, or come to it in one lane.
-    """
-    try:
-        stays = {a: _stay(case, a, b), b: _stay(case, b, a)}
-    except (CannotJudge, TypeError):
-        return None
-    boxes = [moving_box(case.timelines[who].states, case.box(who), np.array([stay[0]])) for who, stay in stays.items()]
-    if float(np.hypot(boxes[0].x_m - boxes[1].x_m, boxes[0].y_m - boxes[1].y_m)[0]) < _ONE_LINE_M:
-        return None  # they come to it along one line: one follows the other, and passes nobody
-    first, second = sorted(stays.values())
-    return second[0] - first[1]
-
-
-def _stay(case: Case, actor: int, other: int) -> tuple[float, float]:
-    place = case.landmark_m("conflict_point", actor, other)
-    half = 0.5 * (case.box(actor).length_m + case.box(other).width_m)
-    timeline = case.timelines[actor]
-    grid = timeline.time_s
-    entered = first_crossing(lambda t: timeline.position(t) - (place - half), grid)
-    left = first_crossing(lambda t: timeline.position(t) - (place + half), grid)
-    if entered is None:
-        raise CannotJudge(f"{called(case.name(actor))} never came to the conflict zone")
-    return entered, np.inf if left is None else left

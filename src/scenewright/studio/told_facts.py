@@ -81,7 +81,7 @@ def _pair(pair: str, values: Mapping[str, Any]) -> Iterator[Told]:
     )
     after = _number(values.get("post_encroachment_time_s"))
     if after is not None:
-        yield f"The second came to where their ways cross {after:.1f} s after the first had left.", None
+        yield f"The second came to a place that the first had been at {after:.1f} s after that had left it.", None
 
 
 def _motion(name: str, values: Mapping[str, Any]) -> Iterator[Told]:
