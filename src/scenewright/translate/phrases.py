@@ -180,10 +180,16 @@ class Phrases:
                 bound = "" if (measure.op, measure.amount) == (">", NO_GAP) else f"{bound} "
                 return f"is {bound}behind {self.name(measure.other)}"
             case st.Quantity.FREE_SPACE | st.Quantity.HEADWAY if measure.other is not None:
-                return f"has a {measure.quantity} of {bound} to {self.name(measure.other)}"
+                return f"has a {measure.quantity} of {bound} {self._beside(measure, 'to')} {self.name(measure.other)}"
             case st.Quantity.COLLISION if measure.other is not None:
-                return f"has a time to collision of {bound} with {self.name(measure.other)}"
+                return f"has a time to collision of {bound} {self._beside(measure, 'with')} {self.name(measure.other)}"
         raise untold(f"a {measure.quantity} to nothing")
+
+    def _beside(self, measure: st.Measure, side: str) -> str:
+        """Return the side on which somebody has a headway: "behind" where the other is told to be that, too."""
+        people = {each.id: each for each in self.story.actors}
+        told = st.rears(people[measure.actor], people[measure.other or EGO], self.story.told)
+        return "behind" if measure.other in told else side
 
     def _where(self, measure: st.Measure, place: st.Place, bound: str, passing: bool) -> str:
         if bound:

@@ -7,10 +7,11 @@ does not know (a kind of road user, a deed) may stand in it and is refused by na
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, fields, is_dataclass, replace
 from enum import StrEnum
 from fractions import Fraction
+from itertools import combinations
 from typing import Literal, TypeGuard, TypeVar
 
 from scenewright.errors import Span
@@ -71,6 +72,9 @@ class Quantity(StrEnum):
     COLLISION = "time to collision"
 
 
+BETWEEN = (Quantity.GAP, Quantity.FREE_SPACE, Quantity.HEADWAY, Quantity.COLLISION)  # of who is behind, to who is ahead
+
+
 @dataclass(frozen=True, slots=True)
 class Place:
     """A landmark; `of` None means of whoever is measured, `partner` None the usual one of a conflict point."""
@@ -98,6 +102,14 @@ class Measure:
     )
     opposite: bool = False
     quote: Quote | None = field(default=None, compare=False, repr=False)
+
+    @property
+    def left(self) -> Fraction | None:
+        """How far it is to its place, in metres, less than none past it; None where that is not told exactly."""
+        if (self.quantity, self.op) != (Quantity.PLACE, "=="):
+            return None
+        far = Fraction(0) if self.amount is None else self.amount.si
+        return -far if far is not None and self.opposite else far
 
 
 @dataclass(frozen=True, slots=True)
@@ -268,6 +280,11 @@ class Story:
         """Everybody who is orchestrated."""
         return tuple(actor for actor in self.actors if actor.id != EGO)
 
+    @property
+    def told(self) -> list[Sequence[Condition]]:
+        """What is so together, as far as it is told."""
+        return told_in(self.moments, self.orders, (each.throughout for each in self.deeds), self.holds)
+
     def deeds_of(self, actor: int) -> tuple[Deed, ...]:
         """Return what somebody does, in the order of doing."""
         own = {deed.begins: deed for deed in self.deeds if deed.actor == actor}
@@ -321,6 +338,40 @@ def people_in(condition: Condition) -> set[int]:
     places = {who for place in within(condition, Place) for who in (place.of, place.partner)}
     measured = {who for each in within(condition, Measure) for who in (each.actor, each.other)}
     return {who for who in places | measured if who is not None}
+
+
+def told_in(
+    moments: Sequence[Moment], orders: Iterable[Order], held: Iterable[Sequence[Condition]], holds: Iterable[Hold]
+) -> list[Sequence[Condition]]:
+    """Return what is told to be so together: at one moment, all the while, and where who passes a place is first."""
+    found = [*(each.conditions for each in moments), *held, *([each.condition] for each in holds)]
+    for order in (each for each in orders if each.op in ("==", ">", ">=")):
+        first, second = (filter(is_event, moments[at].conditions) for at in (order.first, order.second))
+        found.append([*first, *(replace(each, amount=Amount(Fraction(1), "m")) for each in second)])  # before it still
+    return found
+
+
+def rears(one: Actor, other: Actor, told: Iterable[Sequence[Condition]]) -> list[int]:
+    """Return who of two is told to be behind: by how they lie to each other, then by each list of conditions.
+
+    These say it by a distance or a time between both, or by how far each is from one place of a road that both are on.
+    """
+    pair, found, compared = {one.id, other.id}, list[int](), False
+    for who, each in ((actor.id, each) for actor in (one, other) for each in actor.relations):
+        compared |= each.kind == "same way" and each.of in pair
+        found += [who if each.kind == "behind" else each.of] * (each.kind in ("ahead", "behind") and each.of in pair)
+    roads = [each.heading or "".join(each.headings[:1]) or each.origin for each in (one.way, other.way)]
+    known = [each for each in roads if each not in (None, "road")]  # who is beside another is on its road
+    for conditions in told:
+        measures = [each for each in conditions if isinstance(each, Measure)]
+        found += [each.actor for each in measures if each.quantity in BETWEEN and {each.actor, each.other} == pair]
+        compared |= bool(found)
+        on_one = len({*known}) < 2 and (compared or len(known) == 2)
+        places = [each for each in measures if on_one and each.actor in pair and each.left is not None]
+        for first, then in combinations(places, 2):
+            if first.place == then.place and first.actor != then.actor and first.left != then.left:
+                found.append(max(first, then, key=lambda each: each.left or 0).actor)
+    return found
 
 
 def comes_through(story: Story, told: Iterable[int], keeps: Callable[[int], bool]) -> tuple[int, ...]:

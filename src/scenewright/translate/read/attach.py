@@ -16,7 +16,7 @@ from scenewright.translate import story as st
 from scenewright.translate.phrases import SIDES
 from scenewright.translate.read.cast import Cast
 from scenewright.translate.read.chunks import Chunk
-from scenewright.translate.read.clauses import BETWEEN_TWO, IT, PEOPLE, Clause, Taken, Target
+from scenewright.translate.read.clauses import IT, PEOPLE, Clause, Taken, Target
 
 _BARE = {side: op for op, side in SIDES.items()} | {"to": "==", "behind": "<"}  # a side and a place, without an amount
 # What says something of somebody: an amount beside a bare name does not.
@@ -128,7 +128,7 @@ def _find_subject(taken: Taken) -> None:
     # "There is a driveway 100 m in front of the ego."
     if clause.subject is None and taken.amounts and ahead is not None and place is not None:
         clause.subject, ahead.used, place.side = ahead.other, True, "before"
-    if taken.pair is None and {*BETWEEN_TWO} & {*taken.quantities.values()}:
+    if taken.pair is None and {*st.BETWEEN} & {*taken.quantities.values()}:
         others = [each.other for each in taken.targets if each.side in ("to", "with") and each.other is not None]
         if clause.subject is not None and not taken.targets:  # "the ego's headway is 2 s"
             other = taken.people.whom(clause.quote, clause.subject)
@@ -230,12 +230,12 @@ def _give(taken: Taken, at: int, op: st.Operator, chunk: Chunk, paired: Target |
         return
     asked = named or ("headway" if is_time else "gap")
     fits = side in ("behind", "ahead") or (named is not None and side in ("to", "with"))
-    if target.other is None or not fits or asked not in BETWEEN_TWO:
+    if target.other is None or not fits or asked not in st.BETWEEN:
         raise taken.left_over(target.chunk)
-    behind = side == "ahead"  # it is the other one that is behind
-    if side in ("to", "with") and (asked == "gap" or clause.deed is not None):  # "brakes at a headway of 2 s"
-        behind = taken.people.rear(clause.subject or EGO, target.other, chunk.quote) == target.other
-    elif side in ("to", "with"):  # who has one is behind, unless it was said to lead
-        behind = taken.people.told_rear(clause.subject or EGO, target.other) == target.other
+    behind, both = side == "ahead", (clause.subject or EGO, target.other)  # it is the other one that is behind
+    # Who has one is behind, unless it was said to lead; of a gap, and of "brakes at a headway of 2 s", either may be.
+    either = asked == "gap" or clause.deed is not None
+    if side in ("to", "with") and (either or target.other in taken.people.told_rears(*both)):
+        behind = taken.people.rear(*both, chunk.quote) == target.other
     one, other = (target.other, IT) if behind else (IT, target.other)
     taken.measure(chunk, st.Measure(one, st.Quantity(asked), op, amount, other=other))

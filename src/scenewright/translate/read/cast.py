@@ -19,7 +19,7 @@ from scenewright.translate.read.chunks import MARKS, Chunk, nearest_words, word_
 
 _MARKS = {each.lower() for each in MARKS}
 _FURTHER = {"second", "third", "fourth", *_MARKS - {"1", "a"}}
-NEW = "somebody new"
+NEW, BEHIND = "somebody new", "Who drives behind?"
 FIRST = 1  # the number of the first hero, with whom the ego's conflict point is where nothing says so
 ASIDE, CAR = "set it aside", "a car of that name"
 
@@ -40,6 +40,8 @@ class Cast:
     place: st.Place | None = None  # that was spoken of last
     doer: int | None = None  # whose deed it is, while what ends it is read
     quote: st.Quote = field(default_factory=lambda: st.Quote(0, 0, ""))  # the sentence that is being read
+    # Who is behind whom, by words that do not say it: what is told elsewhere was taken.
+    inferred: dict[st.Quote, tuple[int, int]] = field(default_factory=dict)
 
     def who(self, chunk: Chunk, acts: bool = False) -> int:
         """Return the number of whoever is mentioned; somebody new is added. Who `acts` is not the ego."""
@@ -121,19 +123,33 @@ class Cast:
         return EGO, self.heroes[0].id
 
     def rear(self, one: int, other: int, quote: st.Quote) -> int:
-        """Return who of two drives behind the other: as was said, else the first, which is a question."""
+        """Return who of two drives behind the other: as was said, else the first; asked unless all says the same."""
         if one == other:
             self.refuse("one and the same is named twice", quote)
-        known = self.told_rear(one, other)
-        return (self._one_of([one, other], "Who drives behind?", 0, quote) or 0) if known is None else known
+        before = [rear for rear, front in self.inferred.values() if {rear, front} == {one, other}]
+        told, both = self.told_rears(one, other) or before[-1:], [one, other]
+        rear = [one, *told][-1]
+        if len({*told}) != 1:
+            rear = self._one_of([*both], BEHIND, both.index(rear), quote) or 0
+        self.inferred[quote] = rear, one + other - rear
+        return rear
 
-    def told_rear(self, one: int, other: int) -> int | None:
-        """Return who of two was said to drive behind the other, if anybody was."""
-        for actor in self.actors.values():
-            for relation in actor.relations:
-                if {actor.id, relation.of} == {one, other} and relation.kind in ("ahead", "behind"):
-                    return actor.id if relation.kind == "behind" else relation.of
-        return None
+    def told_rears(self, one: int, other: int) -> list[int]:
+        """Return who of two was said to be behind the other, each time that it was; what was inferred says nothing."""
+        told = ([each for each in some if all(not each.quote or each.quote.start not in range(own.start, own.end)
+                 for own in self.inferred)] for some in self.told)  # fmt: skip
+        return st.rears(self.actor(one), self.actor(other), told)
+
+    def told_later(self) -> dict[str, str]:
+        """Return the answers that a text gives after it was asked who drives behind."""
+        asked = {each.slot for each in self.questions if each.text == BEHIND} - self.answers.keys()
+        told = {f"who {quote.start}": self.told_rears(*pair) for quote, pair in self.inferred.items()}
+        return {slot: self.actor(some[0]).name for slot, some in told.items() if slot in asked and len({*some}) == 1}
+
+    @property
+    def told(self) -> list[Sequence[st.Condition]]:
+        """What is so together, as far as it was told: nothing that people alone would know."""
+        return []
 
     def _it(self, chunk: Chunk, acts: bool) -> int:
         if self.doer is not None:

@@ -38,7 +38,6 @@ _DIMENSIONS: dict[str, Dimension] = {
     "rate": "acceleration", "acceleration": "acceleration", "deceleration": "acceleration",
 }  # fmt: skip
 _AT, _FOLLOWS = ("side", "at"), ("follow", "trail", "tail", "lead", "drive", "drove")
-BETWEEN_TWO = ("gap", "bumper-to-bumper gap", "headway", "time to collision")
 _INITIAL = (("at", "link", "start"), ("with", "link", "start"))  # "with an initial speed of"
 
 
@@ -340,7 +339,7 @@ class Taken:
             self.clause.begins.append(st.Measure(IT, st.Quantity.SPEED, "==", amount, quote=chunk.quote))
         elif (
             side == "to"
-            and (kind in ("amount", "bound") or value in ("speed", *BETWEEN_TWO))
+            and (kind in ("amount", "bound") or value in ("speed", *st.BETWEEN))
             and self.clause.deed is not None
         ):
             self.clause.flags.add("to there" if self._is_far() else "to")

@@ -16,7 +16,7 @@ from scenewright.translate import story as st
 from scenewright.translate.read.attach import read_clause
 from scenewright.translate.read.cast import Cast
 from scenewright.translate.read.chunks import Chunk
-from scenewright.translate.read.clauses import BETWEEN_TWO, OPERATORS, PEOPLE, Clause
+from scenewright.translate.read.clauses import OPERATORS, PEOPLE, Clause
 
 ORDERS = ("before", "after", "no later than", "earlier than", "no earlier than")
 _AT_ONCE = ("as soon as", "the moment", "the instant")
@@ -344,7 +344,7 @@ class _Items:
             chunk = self.chunks[self.at]
             parts = chunk.kind == "comma" or (chunk.kind == "joint" and chunk.value in ("and", "or"))
             before = [each.value for each in self.chunks[max(self.at - 3, start) : self.at - 1]]
-            between = before[-1:] == ["between"] or (before[-1:] == ["of"] and before[0] in BETWEEN_TWO)
+            between = before[-1:] == ["between"] or (before[-1:] == ["of"] and before[0] in st.BETWEEN)
             between &= self.chunks[self.at - 1].kind in PEOPLE
             closes = any(self.is_joint(link) for link in inside) or self.is_beside()
             if self.at > start + 1 and self._is_of_another():  # "40 m behind a van that stands": the van stands

@@ -72,6 +72,11 @@ class Narrative(Cast):
     title: str | None = None
     asides: list[st.Quote] = field(default_factory=list)
 
+    @property
+    def told(self) -> list[Sequence[st.Condition]]:
+        """What is so together, as far as it was told."""
+        return st.told_in(self.moments, self.orders, (each.throughout for each in self.doings), self.holds)
+
     def story(self) -> st.Story:
         """Return the story; deeds that are still open end at moments of their own."""
         self.actor(EGO)  # refuses a text that does not name it

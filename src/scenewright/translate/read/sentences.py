@@ -80,7 +80,8 @@ def read(text: str, answers: Mapping[str, str] | None = None, name: str = "descr
     try:
         for each in narrative.afterwards:
             each()
-        return narrative.story()
+        story, later = narrative.story(), narrative.told_later()
+        return read(text, {**narrative.answers, **later}, name) if later else story
     except TranslationError as error:
         if narrative.is_open and names_ego:
             return st.Story((), questions=tuple(narrative.questions))  # that is asked about first
