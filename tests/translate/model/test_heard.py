@@ -136,6 +136,23 @@ def test_assumption_owns_to_a_unit_that_is_unsaid() -> None:
     assert faults(text, "16", "m", "15", owned="16 is in metres", **STOP_LINE) != ""
 
 
+@pytest.mark.parametrize("said", ["when the gap is 20 m", "when the distance between both is 20 m"])
+def test_who_was_ahead_at_the_start_is_behind_only_where_that_is_said_or_owned_to(said: str) -> None:
+    text = f"A van drives 30 m behind the ego, and {said}, the van brakes"
+    amount = st.Amount(Fraction(20), "m", None, quote("20 m", text))
+    start = st.Measure(1, GAP, "==", st.Amount(Fraction(30), "m"), other=0)
+
+    def found(rear: int, quantity: st.Quantity, owned: str = "") -> str:
+        claim = Claim(st.Story(ACTORS, (st.Moment((start,)),)), CALLED, owned=[(Span(0, len(text)), owned)])
+        measure = st.Measure(rear, quantity, "==", amount, other=1 - rear, quote=quote(said, text))
+        return "; ".join(Measured(claim, text, Heard(text, CALLED)).measure(measure, quote(said, text)))
+
+    for quantity in (GAP, st.Quantity.FREE_SPACE):
+        assert "does not say that ego is behind van" in found(0, quantity)
+        assert "as it was not at the start" not in found(0, quantity, "the ego is behind by then")
+        assert "as it was not at the start" not in found(1, quantity)
+
+
 @pytest.mark.parametrize(
     ("words", "value", "unit"),
     [

@@ -268,6 +268,12 @@ class Measured:
                 actors = (other, measure.actor) if each.value == "ahead" else (measure.actor, other)
                 if any(who not in known and known & pair for who, known in zip(actors, sides, strict=True)):
                     yield f"'{quote.text}' says it of {self.name(other)} and {self.name(measure.actor)} the other way"
+        start, told = self.claim.story.moments[st.START].conditions, {each.value for each in said}
+        if not (fast or measure in start or told & {"ahead", "behind", "to", "with"}):  # "the gap"
+            behind, ahead = (self.claim.story.actors[who] for who in (measure.actor, other))
+            if (rears := st.rears(behind, ahead, [start])) and measure.actor not in rears:
+                fault = f"does not say that {behind.name} is behind {ahead.name}, as it was not at the start"
+                yield from self.silent(quote, fault, "behind")
         factor = next((each.value for each in said if each.kind == "factor"), "")
         if fast and (factor or measure.op != "=="):
             opposed = measure.opposite is not (factor == "slower")
