@@ -60,7 +60,7 @@ def test_at_a_right_angle_it_is_between_leaving_the_square_and_entering_it(turne
     )
 
 
-@settings(max_examples=30)
+@settings(max_examples=12)
 @given(
     speeds=st.tuples(st.floats(2.0, 15.0), st.floats(2.0, 15.0)),
     turn_deg=st.floats(-170.0, 170.0),
