@@ -32,7 +32,7 @@ class Compiled:
     """
 
     def __init__(self, formulas: Sequence[Formula], size: int) -> None:
-        self._formulas = formulas  # comparisons are known by what they are in memory
+        self._formulas = formulas  # kept alive: comparisons are numbered by identity
         self.atoms = [part for formula in formulas for part in atoms(formula)]
         self._numbers = {id(part): number for number, part in enumerate(self.atoms)}
         held = list(conjuncts(formulas))

@@ -38,7 +38,7 @@ class Ending:
         self._awaited = _awaited_of(scene)
         told = {name for c in scene.program.constraints for owner, name in knots_of(c.formula) if owner == EGO}
         self._ego_told = told - self._awaited.keys()  # only a plan says when these come
-        self._first: dict[str, float] = {}
+        self._first: dict[str, float] = {}  # by knot: the value of what is awaited when the run began
 
     def is_now(self, plans: Mapping[int, Profile], now: Snapshot) -> bool:
         """Whether the run is over; to be asked at every step.
@@ -104,13 +104,14 @@ def _told_times(program: Program) -> list[ex.Term]:
 
 def _awaited_of(scene: Scene) -> dict[str, LinearCondition]:
     """Return what tells when the ego is at its own moments: a place, or the edge of a bound on it; else an equality."""
-    structure, found = read_structure(scene.program), dict[str, LinearCondition]()
-    conditions = linear_conditions(scene, structure, with_bounds=True)
-    equalities = {each.constraint_id for each in linear_conditions(scene, structure)}
-    for condition in sorted(conditions, key=lambda each: not each.weights.get(EGO, (0.0, 0.0))[0]):
+    found = dict[str, LinearCondition]()
+    told = linear_conditions(scene, read_structure(scene.program), with_bounds=True)
+    of_ego = [condition for condition in told if EGO in condition.weights]
+    for condition in sorted(of_ego, key=lambda each: not each.weights[EGO][0]):  # those on its place first
         (owner, name), *others = condition.moments
-        tells = condition.weights.get(EGO, (0.0, 0.0))[0] or condition.constraint_id in equalities
-        if owner == EGO and not others and tells and EGO in condition.weights:
+        formula = scene.program.constraint(condition.constraint_id).formula
+        is_equality = isinstance(formula, ex.Compare) and formula.operator == "=="
+        if owner == EGO and not others and (is_equality or condition.weights[EGO][0]):
             found.setdefault(name, condition)
     return found
 
