@@ -6,6 +6,7 @@ from itertools import product
 
 import pytest
 
+from scenewright.errors import UnknownWordsError
 from scenewright.program.printer import print_expression
 from scenewright.translate import story as st
 from scenewright.translate.compile import compile_story
@@ -160,3 +161,14 @@ def test_what_is_told_both_ways_round_is_read_back() -> None:
         lines = tell(story)
         assert any("behind the hero" in line for line in lines)
         assert st.arranged(read("\n".join(lines))) == st.arranged(story)
+
+
+@pytest.mark.parametrize("lead", ["Then", "After that,", "Later,", "Finally,", "At that moment,", "Afterwards,"])
+@pytest.mark.parametrize("side", ["ahead of the ego", "behind the ego"])
+def test_a_side_without_a_distance_is_told_of_the_start_alone(lead: str, side: str) -> None:
+    text = f"{WEST}When the ego is 30 m from the intersection, the hero brakes. {lead} the hero is {side}."
+    with pytest.raises(UnknownWordsError, match="not clear when this is so"):
+        understand(text)
+    assert understand(
+        f"{WEST}The hero is {side} at the start. When the ego is 30 m from the intersection, it brakes."
+    ).program

@@ -284,6 +284,9 @@ class _Sentence:
         """Take what is so at the start, all the while, later, or of somebody's way."""
         story, words = self.story, self.led.words
         for item in items:
+            sides = {each.kind for each in item.relations} & {"ahead", "behind"}
+            if sides and words & {"then", "later", "same time", "meanwhile"}:
+                self._when_unclear()  # on whose side somebody is without a distance is told of the start alone
             story.tell(item)
             if item.subject is not None:
                 story.subject = None if "both" in item.notes else item.subject
