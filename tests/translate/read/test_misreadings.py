@@ -7,9 +7,11 @@ from dataclasses import replace
 import pytest
 from readings import Reading, reading_of, written
 
+from scenewright.errors import UnknownWordsError
 from scenewright.program.printer import print_expression
 from scenewright.translate.read.sentences import read
 from scenewright.translate.tell import tell
+from scenewright.translate.understand import understand
 
 ALONG = "The ego drives west along the road. The hero is ahead of the ego and goes straight on. "
 ONCOMING = "The ego drives west. An oncoming hero turns left into the driveway. "
@@ -496,3 +498,29 @@ def test_up_to_is_a_bound_but_of_where_one_drives() -> None:
 def test_who_does_what_stands_behind_a_moment_is_asked() -> None:
     told = told_in(f"{ROAD}The hero speeds up to 15 m/s {BEHIND} and brakes.")
     assert "Of whom is 'brakes'" in told
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("The ego turns left at the stop line.", "'the stop line'"),
+        ("The ego drives to the intersection.", "not clear when this is so"),
+        ("The ego drives on to the intersection.", "not clear when this is so"),
+        ("The ego comes to the stop line.", "not clear when this is so"),
+        ("The ego drives past the intersection.", "not clear when this is so"),
+        ("The ego turns left at 5 m/s.", "not clear when this is so"),
+        ("The hero drives to the stop line and stops there. The ego turns left.", "'there'"),
+    ],
+)
+def test_where_and_how_fast_somebody_will_be_is_not_told_of_the_start(text: str, told: str) -> None:
+    with pytest.raises(UnknownWordsError, match=told):
+        understand(f"{text} An oncoming car brakes when the ego is 30 m from the intersection.")
+
+
+@pytest.mark.parametrize("way", ["turns left", "goes straight", "drives straight", "turns right"])
+@pytest.mark.parametrize("where", ["at the intersection", "at the junction", "through the intersection"])
+def test_where_a_way_turns_is_not_where_somebody_begins(way: str, where: str) -> None:
+    rest = "An oncoming car brakes to a stop when the ego is 30 m from the intersection."
+    found, told = (understand(f"The ego {each}. {rest}").program for each in (f"{way} {where}", way))
+    assert [each.formula for each in found.constraints] == [each.formula for each in told.constraints]
+    assert found.actors == told.actors

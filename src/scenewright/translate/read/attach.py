@@ -176,6 +176,10 @@ def _stand_alone(taken: Taken, target: Target) -> None:
     elif target.side == "at" and target.at < taken.subject_at and not taken.states & {"pass", "reach"}:
         raise taken.left_over(target.chunk)  # "at the junction, the ego ...": it is what follows that is there
     elif target.place is not None and target.side in _BARE:
+        drives = taken.states & {"drives", "goes"} or (clause.deed, clause.subject) == (st.Verb.DRIVE, EGO)
+        clause.notes |= {"comes"} if target.side in ("to", "past") and drives else set()
+        if target.side == "to" and "drives" in taken.states and clause.deed is None and clause.subject != EGO:
+            clause.deed = st.Verb.DRIVE
         taken.measure(target.chunk, st.Measure(IT, st.Quantity.PLACE, _BARE[target.side], None, target.place))
     else:
         raise taken.left_over(target.chunk)

@@ -288,6 +288,8 @@ class Taken:
         moves = self.clause.deed is not None or "drives" in self.states or self.moves
         if fast and self._is_of_another(2) and self.clause.subject is not None and not moves:
             raise self.left_over(chunk)  # "slower than the ego at 15 m/s"
+        turns = any(each.kind == "turn" and each.value != "straight" for each in self.chunks[: self.at])
+        self.clause.notes |= {"comes"} if fast and turns and not {"drives", "goes"} & self.states else set()
         op = self.bound()
         lead = self.peek(-2 if self.peek(-1)[0] == "bound" else -1)
         amount = chunk.amount
@@ -326,6 +328,10 @@ class Taken:
             self.at += 2 if (self.peek()[0], self.peek(2)[0]) == ("possessive", "thing") else 0
         elif side == "between" or (side == "of" and kind in PEOPLE and self.peek(-1)[0] == "quantity"):
             self._between(chunk)
+        elif side == "at" and kind == "place" and self.peek(-1)[0] == "turn":  # that is where a way turns
+            self.at += 1
+            if value != "intersection":
+                raise self.left_over(self.chunks[self.at])
         elif kind in ("place", *PEOPLE):
             self._target(side)
         elif (kind, value) == ("area", "driveway") and side in _SIDES and self.peek(-1)[0] == "amount":

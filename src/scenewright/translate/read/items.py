@@ -175,13 +175,15 @@ def parted(chunks: list[Chunk]) -> tuple[list[Chunk], list[Chunk]]:
 
 
 def plainly(chunks: list[Chunk]) -> list[Chunk]:
-    """Return chunks as they are meant beside each other: who is "stopped" stands, "down to 3 m/s" is to that speed."""
+    """Return chunks as they are meant beside each other: "stopped" is standing, "down to 3 m/s" to that speed."""
     found = list[Chunk]()
     for number, chunk in enumerate(chunks):
         last, following = chunks[max(number - 1, 0)].kind, next(iter(chunks[number + 1 :]), chunk)
         fast = following.amount is not None and following.amount.dimension == "speed"
         if chunk.words == "stopped" and (following.kind in PEOPLE or last == "comma"):
             found.append(replace(chunk, kind="state", value="stands"))  # "a stopped bus", "the car, stopped 5 m before"
+        elif chunk.words in ("through", "across") and (last, following.value) == ("turn", "intersection"):
+            found.append(replace(chunk, value="at"))  # "goes straight through the intersection"
         elif chunk.words == "down to" and fast and any(each.kind == "deed" for each in found):
             found.append(replace(chunk, kind="side", value="to"))
         elif chunk.kind != "kept" or following.value not in ("acceleration", "deceleration", "rate"):

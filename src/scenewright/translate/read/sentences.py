@@ -318,8 +318,8 @@ class _Sentence:
             story.add(at, conditions)
             story.pending = self.pending
         elif "start" in words or not (story.doings or self.pending is not None or words - {"meanwhile"}):
-            if "start" not in words and any("event" in each.notes and each.measures for each in items):
-                self._when_unclear()  # "the hero crosses the stop line at 5 m/s"
+            if "start" not in words and any({"event", "comes"} & each.notes and each.measures for each in items):
+                self._when_unclear()  # "the hero crosses the stop line at 5 m/s", "drives to it", "turns at 5 m/s"
             story.add(st.START, conditions)
         else:
             self._when_unclear()
