@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 import numpy as np
 import pytest
 from plays import YIELDS, failed
 
+from scenewright.judge.case import Case, PathLike
 from scenewright.judge.judgement import judge
 from scenewright.judge.kinematics import Finding, kinematic_findings
 from scenewright.judge.tolerance import TIGHT
+from scenewright.program.types import EGO
 from scenewright.trace.model import COLUMNS, ActorTrace, FloatArray, Trace
 
 
@@ -53,6 +55,50 @@ def test_kinematics_of_the_ego_are_facts() -> None:
     verdict = judge(tampered)
     assert verdict.holds_at(TIGHT)
     assert verdict.facts["kinematics"]["ego"]["acceleration"] == 6.0
+
+
+def with_ego(change: Callable[[ActorTrace], ActorTrace], paths: Mapping[str, PathLike] | None = None) -> Case:
+    case = YIELDS.case()
+    trace = Trace({**case.trace.actors, "ego": change(case.trace.actors["ego"])})
+    return replace(case, trace=trace, paths=paths or {})
+
+
+@pytest.mark.parametrize(
+    ("change", "expected"),
+    [
+        (teleporting, {"kin_ego_position_drift", "kin_ego_map_drift"}),
+        (sliding_on_the_map, {"kin_ego_map_drift"}),
+        (lambda ego: replace(ego, speed_mps=ego.speed_mps + from_sample(ego, 600, 0.4)), {"kin_ego_speed_jump"}),
+        (lambda ego: replace(ego, speed_mps=2 * ego.speed_mps), {"kin_ego_position_drift", "kin_ego_map_drift"}),
+        (lambda ego: replace(ego, speed_mps=0 * ego.speed_mps), {"kin_ego_position_drift", "kin_ego_map_drift"}),
+    ],
+)
+def test_an_ego_that_is_not_where_its_speed_says_is_not_judged_by_what_it_states(
+    change: Callable[[ActorTrace], ActorTrace], expected: set[str]
+) -> None:
+    verdict = judge(with_ego(change))
+    assert expected <= failed(verdict, TIGHT)
+    assert all(verdict.condition(each).kind == "safety" for each in expected)
+
+
+class Bend:
+    """A left turn with a radius of 20 m."""
+
+    def poses(self, s_m: FloatArray, /) -> FloatArray:
+        angle = s_m / 20.0
+        return np.column_stack([20.0 * np.sin(angle), 20.0 - 20.0 * np.cos(angle), angle])
+
+
+@pytest.mark.parametrize("beside_m", [0.9, -0.9, 0.0])
+def test_beside_the_line_of_a_bend_the_way_is_not_as_long_as_the_line(beside_m: float) -> None:
+    def round_the_bend(ego: ActorTrace) -> ActorTrace:
+        turned = (ego.s_m - ego.s_m[0]) / (20.0 - beside_m)
+        x_m, y_m = (20.0 - beside_m) * np.sin(turned), 20.0 - (20.0 - beside_m) * np.cos(turned)
+        beside = np.full_like(turned, beside_m)
+        return replace(ego, s_m=20.0 * turned, d_m=beside, x_m=x_m, y_m=y_m, heading_rad=turned)
+
+    case = with_ego(round_the_bend, {"ego": Bend()})
+    assert [each.measured for each in kinematic_findings(case, EGO)[:3]] == pytest.approx([0.0] * 3, abs=0.01)
 
 
 VIOLATIONS: dict[str, tuple[Callable[[ActorTrace], ActorTrace], set[str]]] = {

@@ -18,7 +18,7 @@ HERO_LATE_S = 10.0  # the hero of this play stands from 8.7 s on
 
 
 def beside(trace: ActorTrace) -> ActorTrace:
-    shift = np.where(trace.time_s < HERO_LATE_S, 0.0, np.minimum(0.5 * (trace.time_s - HERO_LATE_S), 1.5))
+    shift = np.maximum(0.24 * (trace.time_s - 9.0), 0.0)  # slowly: who stands is not to be seen moving
     return replace(trace, d_m=trace.d_m + shift)
 
 

@@ -1,7 +1,7 @@
 """Whether a car can have moved like this: no jumps, no contradiction between columns, within limits, never backwards.
 
-What enters: a `Case` and an actor. What leaves: for orchestrated actors conditions, for the ego (which is not ours)
-facts.
+What enters: a `Case` and an actor. What leaves: conditions, and for the ego facts. That the columns of a trace agree is
+owed by everybody, for all that is judged rests on them; limits are the heroes' own, for the ego is not ours.
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ import numpy as np
 from scenewright.judge.case import Case
 from scenewright.judge.tolerance import FloatArray
 from scenewright.judge.verdict import Condition, bounded
+from scenewright.program.types import EGO
 from scenewright.trace.model import ActorTrace
 from scenewright.translate.phrases import called
 from scenewright.units import Dimension
@@ -34,15 +35,25 @@ class Finding:
 
 def kinematic_findings(case: Case, actor_id: int) -> list[Finding]:
     """Measure the worst of each quantity for one actor."""
-    states, limits = case.timelines[actor_id].states, case.limits_of(actor_id)
-    low, high, lateral = float(states.accel_mps2.min()), float(states.accel_mps2.max()), _lateral(states)
-    backwards = max(0.0, -float(states.speed_mps.min()))
-    top = float(states.speed_mps.max())
-    jump, drift, slip = _speed_jump(states), _position_drift(states), _map_drift(states)
+    return [*_agreements(case, actor_id), *_within_limits(case, actor_id)]
+
+
+def _agreements(case: Case, actor_id: int) -> list[Finding]:
+    states = case.timelines[actor_id].states
+    jump, drift, slip = _speed_jump(states), _position_drift(case, actor_id), _map_drift(states)
     return [
         Finding("speed_jump", "speed changes only as its acceleration says", 0.0, jump, jump, "speed"),
         Finding("position_drift", "position changes only as its speed says", 0.0, drift, drift, "speed"),
         Finding("map_drift", "the way on the map is as long as its speed says", 0.0, slip, slip, "speed"),
+    ]
+
+
+def _within_limits(case: Case, actor_id: int) -> list[Finding]:
+    states, limits = case.timelines[actor_id].states, case.limits_of(actor_id)
+    low, high, lateral = float(states.accel_mps2.min()), float(states.accel_mps2.max()), _lateral(states)
+    backwards = max(0.0, -float(states.speed_mps.min()))
+    top = float(states.speed_mps.max())
+    return [
         _above("acceleration", "acceleration stays within its limit", limits.accel_max_mpss, high, "acceleration"),
         _below("deceleration", "deceleration stays within its limit", limits.accel_min_mpss, low, "acceleration"),
         _above("speed", "speed stays within its limit", limits.speed_max_mps, top, "speed"),
@@ -53,14 +64,14 @@ def kinematic_findings(case: Case, actor_id: int) -> list[Finding]:
 
 
 def kinematic_conditions(case: Case) -> list[Condition]:
-    """Judge every orchestrated actor."""
+    """Judge the agreement of columns for everybody, and limits for every orchestrated actor."""
     return [
         bounded(
-            f"kin_{hero.name}_{finding.name}", "safety", f"{called(hero.name)}: {finding.text}",
+            f"kin_{actor.name}_{finding.name}", "safety", f"{called(actor.name)}: {finding.text}",
             required=finding.required, measured=finding.measured, error=finding.error, dimension=finding.dimension,
         )
-        for hero in case.program.heroes
-        for finding in kinematic_findings(case, hero.id)
+        for actor in case.program.actors
+        for finding in (_agreements if actor.id == EGO else kinematic_findings)(case, actor.id)
     ]  # fmt: skip
 
 
@@ -91,12 +102,23 @@ def _speed_jump(states: ActorTrace) -> float:
     return max(0.0, float(beyond.max()))
 
 
-def _position_drift(states: ActorTrace) -> float:
+def _position_drift(case: Case, actor_id: int) -> float:
+    """Return by how much (m/s) the way in route coordinates differs from the speed at most.
+
+    Beside the line of its route the way through a bend is shorter or longer than the line is, and some of it leads
+    across.
+    """
+    states, path = case.timelines[actor_id].states, case.paths.get(case.name(actor_id))
     steps = np.diff(states.time_s)
     if not len(steps):
         return 0.0
+    along = np.diff(states.s_m)
+    if path is not None and states.d_m.any():
+        turned = np.diff(np.unwrap(path.poses(states.s_m)[:, 2]))
+        along = along - 0.5 * (states.d_m[1:] + states.d_m[:-1]) * turned
+    way: FloatArray = np.copysign(np.hypot(along, np.diff(states.d_m)), along)
     mean = 0.5 * (states.speed_mps[1:] + states.speed_mps[:-1])
-    return float(np.max(np.abs(np.diff(states.s_m) / steps - mean)))
+    return float(np.max(np.abs(way / steps - mean)))
 
 
 def _map_drift(states: ActorTrace) -> float:
