@@ -63,6 +63,17 @@ def test_a_motion_of_its_own_puts_it_there() -> None:
     assert (ego.state.speed_mps, ego.state.accel_mps2) == (9.0, pytest.approx(1.0 / STEP_S))
 
 
+@pytest.mark.parametrize("s_m", [101.0, SCENE.routes[EGO].path.length_m])
+def test_beside_its_line_an_acceleration_takes_it_on_and_not_back_onto_the_line(s_m: float) -> None:
+    x_m, y_m, heading_rad = SCENE.routes[EGO].path.to_cartesian(s_m, 0.5)
+    ego = EgoVehicle(GuardedPolicy(Does(0.0), "does"), SCENE.routes[EGO], SCENE.road_map, seed=7)
+    ego.reset(s_m, 9.0)
+    ego.advance(EgoMotion(x_m, y_m, heading_rad, 9.0), STEP_S)
+    ego.advance(ego.decide(STEP_S, (), STEP_S), STEP_S)
+    assert ego.state.d_m == pytest.approx(0.5, abs=1e-6)
+    assert math.hypot(ego.state.x_m - x_m, ego.state.y_m - y_m) == pytest.approx(9.0 * STEP_S, rel=1e-3)
+
+
 def test_it_is_told_where_it_starts_and_shown_itself_with_its_route() -> None:
     policy = Does(0.0)
     driven(policy, 6.0, 3)

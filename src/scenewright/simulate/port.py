@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from math import cos, sin
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from scenewright.errors import SimulatorError
@@ -25,9 +26,11 @@ if TYPE_CHECKING:
 GROUP = "scenewright.simulators"
 
 
-def on_route(route: Route, motion: tuple[float, float, float]) -> ActorState:
-    """Return who is exactly on its route, from arc length (m), speed (m/s) and acceleration (m/s^2)."""
-    return ActorState(*route.path.pose(motion[0]), *motion[1:], motion[0], 0.0)
+def on_route(route: Route, motion: tuple[float, float, float], d_m: float = 0.0) -> ActorState:
+    """Return who drives along its route, on its line or beside it, from arc length (m), speed (m/s) and m/s^2."""
+    x_m, y_m, heading_rad = route.path.pose(motion[0])
+    beside = (x_m - d_m * sin(heading_rad), y_m + d_m * cos(heading_rad), heading_rad)
+    return ActorState(*beside, *motion[1:], motion[0], d_m)
 
 
 def at_pose(

@@ -62,13 +62,17 @@ class EgoVehicle:
 
     def advance(self, action: float | EgoMotion, dt_s: float) -> None:
         """Carry out one step."""
-        s_m, before_mps, accel_mpss = self.state.s_m, self.state.speed_mps, self.state.accel_mps2
+        s_m, d_m, before_mps, accel_mpss = self.state.s_m, self.state.d_m, self.state.speed_mps, self.state.accel_mps2
         if isinstance(action, EgoMotion):
             pose = (action.x_m, action.y_m, action.heading_rad)
             self.state = at_pose(self.route, pose, action.speed_mps, accel_mpss, s_m)
             return
         speed_mps = max(0.0, before_mps + accel_mpss * dt_s)
-        self.state = on_route(self.route, (s_m + 0.5 * (before_mps + speed_mps) * dt_s, speed_mps, accel_mpss))
+        # Who has left the line of its route by a motion of its own is not put back onto it: it goes on beside it.
+        way_m = 0.5 * (before_mps + speed_mps) * dt_s
+        # Beyond the centre of a bend there is no way along it; the floor keeps it going.
+        s_m += way_m / max(0.1, 1.0 - self.route.path.curvature(s_m + 0.5 * way_m) * d_m)
+        self.state = on_route(self.route, (s_m, speed_mps, accel_mpss), d_m)
 
 
 def seen(scene: Scene, heroes: Mapping[int, ActorState]) -> tuple[VehicleState, ...]:
