@@ -69,6 +69,19 @@ def on_line(time_s: Array, s: Array, v: Array, a: Array, line: tuple[float, floa
 
 
 @dataclass(frozen=True)
+class Line:
+    """A straight route: x and y at arc length 0, and the heading."""
+
+    x_m: float = 0.0
+    y_m: float = 0.0
+    heading_rad: float = 0.0
+
+    def poses(self, s_m: Array, /) -> Array:
+        heading = np.full_like(s_m, self.heading_rad)
+        return np.column_stack([self.x_m + s_m * np.cos(heading), self.y_m + s_m * np.sin(heading), heading])
+
+
+@dataclass(frozen=True)
 class Play:
     """A program and the motions that perform it exactly."""
 
@@ -96,6 +109,7 @@ class Play:
             trace=Trace(traces),
             vehicles={"ego": Box(), "hero": Box()},
             limits={"hero": Limits(20.0, -8.0, 4.0, 3.0)},
+            paths={"ego": Line(*self.ego_line), "hero": Line(*self.hero_line)},
         )
 
     def with_hero(self, **changes: object) -> Play:

@@ -2,26 +2,50 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
-from plays import BRAKES, LANDMARKS, YIELDS, Play
+from plays import BRAKES, LANDMARKS, YIELDS, Play, failed
 
 from scenewright.errors import InputError, OutputError, ProgramError
 from scenewright.judge.files import judge_run_directory, read_case, write_verdict
 from scenewright.judge.judgement import judge
-from scenewright.judge.tolerance import TIGHT
+from scenewright.judge.tolerance import LOOSE, TIGHT
 from scenewright.trace.files import write_trace
 
 
-def manifest(play: Play) -> dict[str, Any]:
+def road(number: int, x_m: float, y_m: float, heading_rad: float) -> str:
+    """Return a straight road of one lane, whose middle begins at a place."""
+    edge = f'x="{x_m - 1.75 * np.sin(heading_rad)!s}" y="{y_m + 1.75 * np.cos(heading_rad)!s}" hdg="{heading_rad!s}"'
+    return (
+        f'<road id="{number}" length="300" junction="-1"><link/><planView><geometry s="0" {edge} length="300"><line/>'
+        '</geometry></planView><lanes><laneSection s="0"><center>'
+        '<lane id="0" type="none" level="false"/></center><right><lane id="-1" type="driving" level="false">'
+        '<width sOffset="0" a="3.5" b="0" c="0" d="0"/></lane></right></laneSection></lanes></road>'
+    )
+
+
+def map_of(play: Play) -> str:
+    roads = road(1, *play.ego_line) + (road(2, *play.hero_line) if play.hero_line != play.ego_line else "")
+    return f'<OpenDRIVE><header revMajor="1" revMinor="6"/>{roads}</OpenDRIVE>'
+
+
+def manifest(play: Play, road_map: Path) -> dict[str, Any]:
+    file = {"file": str(road_map), "sha256": hashlib.sha256(road_map.read_bytes()).hexdigest()}
     return {
         "schema_version": 1,
+        "map": {"name": road_map.stem, **file},
         "status": "finished",
         "landmarks": {**LANDMARKS, "ego": {**LANDMARKS["ego"], "turn_end": None}},
-        "routes": {"ego": {"headings": ["E"], "lanes": []}, "hero": {"headings": [], "lanes": []}},
+        "routes": {
+            "ego": {"headings": ["E"], "lanes": ["1.0.-1"]},
+            "hero": {"headings": [], "lanes": ["1.0.-1" if play.hero_line == play.ego_line else "2.0.-1"]},
+        },
         "vehicles": {"ego": {"length_m": 4.5, "width_m": 1.9}, "hero": {"length_m": 4.5, "width_m": 1.9}},
         "limits": {"hero": {"speed_max_mps": 20.0, "accel_min_mpss": -8.0, "accel_max_mpss": None}},
         "shared_offsets": [{"a": "hero", "b": "ego", "offset_m": play.offset_m}],
@@ -31,7 +55,8 @@ def manifest(play: Play) -> dict[str, Any]:
 
 def write_run(directory: Path, play: Play) -> Path:
     directory.mkdir(exist_ok=True)
-    (directory / "manifest.json").write_text(json.dumps(manifest(play)), encoding="utf-8")
+    (road_map := directory / "roads.xodr").write_text(map_of(play), encoding="utf-8")
+    (directory / "manifest.json").write_text(json.dumps(manifest(play, road_map)), encoding="utf-8")
     (directory / "program.scene").write_text(play.text, encoding="utf-8")
     units = {"gap_m": "m", "rate_mpss": "m/s^2"}
     values = {n: {"value": v, "unit": units[n], "source": "given"} for n, v in play.parameters.items()}
@@ -45,9 +70,9 @@ def test_run_directory_gives_the_verdict_of_its_case(tmp_path: Path, play: Play)
     verdict = judge_run_directory(write_run(tmp_path / "run", play))
     assert verdict.holds_at(TIGHT)
     direct = judge(play.case())
-    assert {c.id: c.measured for c in direct.conditions}.items() <= {
-        c.id: c.measured for c in verdict.conditions
-    }.items()
+    assert [c.id for c in verdict.conditions] == [c.id for c in direct.conditions]
+    for condition in direct.conditions:
+        assert verdict.condition(condition.id).measured == pytest.approx(condition.measured, abs=1e-9)
     assert verdict.facts["trigger_time_s"]["hero"] == pytest.approx(play.trigger_s, abs=1e-3)
 
 
@@ -103,12 +128,51 @@ def edited(run: Path, **changes: Any) -> Path:
         ({"landmarks": {"ego": {"stop_line": "far"}}}, "landmarks.ego.stop_line"),
         ({"vehicles": {"ego": {"length_m": -1.0, "width_m": 2.0}}}, "vehicles.ego.length_m"),
         ({"schema_version": 2}, "schema version"),
+        ({"map": {"name": "roads", "file": "roads.xodr"}}, "map.sha256"),
     ],
 )
 def test_faulty_manifest_is_refused(tmp_path: Path, changes: dict[str, Any], named: str) -> None:
     with pytest.raises(InputError) as caught:
         judge_run_directory(edited(write_run(tmp_path / "run", BRAKES), **changes))
     assert named in str(caught.value)
+
+
+UNMAPPED = {"route_ego_map", "route_hero_map", "route_hero_directions"}
+
+
+def test_a_map_that_is_not_to_be_had_is_told_and_nothing_is_skipped(tmp_path: Path) -> None:
+    run = write_run(tmp_path / "run", YIELDS)
+    whole = [each.id for each in judge_run_directory(run).conditions]
+    (run / "roads.xodr").rename(tmp_path / "moved.xodr")
+    verdict = judge_run_directory(run)
+    assert [each.id for each in verdict.conditions] == whole
+    assert failed(verdict, LOOSE) == UNMAPPED
+    assert verdict.condition("route_hero_map").text.endswith("(not judged: the map cannot be read)")
+    named = json.loads((run / "manifest.json").read_text(encoding="utf-8"))["map"]
+    edited(run, map={**named, "name": str(tmp_path / "moved.xodr")})
+    assert judge_run_directory(run).holds_at(TIGHT)
+
+
+def test_another_map_is_not_the_one_that_was_driven_on(tmp_path: Path) -> None:
+    run = write_run(tmp_path / "run", YIELDS)
+    (run / "roads.xodr").write_text(map_of(replace(YIELDS, hero_line=(75.0, 100.0, -np.pi / 2))), encoding="utf-8")
+    verdict = judge_run_directory(run)
+    assert failed(verdict, LOOSE) == UNMAPPED
+    assert "another one" in verdict.condition("route_ego_map").text
+
+
+@pytest.mark.parametrize(
+    ("changes", "why"),
+    [
+        ({"map": "absent"}, "names no map"),
+        ({"routes": {}}, "names no route"),
+        ({"routes": {name: {"headings": ["E"], "lanes": ["9.0.-1"]} for name in ("ego", "hero")}}, "has no such route"),
+    ],
+)
+def test_a_manifest_without_map_or_routes_leaves_nothing_out(tmp_path: Path, changes: dict[str, Any], why: str) -> None:
+    verdict = judge_run_directory(edited(write_run(tmp_path / "run", BRAKES), **changes))
+    assert {"route_ego_map", "route_hero_map"} <= failed(verdict, LOOSE)
+    assert why in verdict.condition("route_hero_map").text
 
 
 @pytest.mark.parametrize("content", ["", "{", "[]", '{"gap_m": {"value": "x", "unit": "m"}}'])

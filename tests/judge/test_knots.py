@@ -14,6 +14,7 @@ from plays import (
     CROSSING,
     NOT_YIELDING,
     YIELDS,
+    Line,
     Motion,
     Play,
     actor_trace,
@@ -168,7 +169,7 @@ def three(second: Motion) -> Verdict:
         "second": {"conflict_point": 120.0},
     }
     program = parse_program(SCENE_OF_THREE.replace("conflict_point(A0) - 30", "A2.conflict_point(A0) - 30"))
-    return judge(Case(program, {}, landmarks, {}, Trace(traces)))
+    return judge(Case(program, {}, landmarks, {}, Trace(traces), paths={n: Line(*line) for n, line in lines.items()}))
 
 
 def test_two_heroes_have_a_trigger_each() -> None:

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from plays import YIELDS
+from plays import YIELDS, Line
 
 from scenewright.judge.judgement import judge
 from scenewright.judge.route import BACK_M, MAX_ANGLE_RAD, MAX_LATERAL_M, route_conditions
@@ -31,9 +31,9 @@ def backwards(trace: ActorTrace) -> ActorTrace:
 
 
 VIOLATIONS: dict[str, tuple[Callable[[ActorTrace], ActorTrace], set[str]]] = {
-    "beside its line": (beside, {"route_hero"}),
+    "beside its line": (beside, {"route_hero", "route_hero_map"}),
     "askew": (askew, {"route_hero_heading"}),
-    "back along its route": (backwards, {"route_hero_progress", "kin_hero_position_drift"}),
+    "back along its route": (backwards, {"route_hero_progress", "route_hero_map", "kin_hero_position_drift"}),
 }
 
 
@@ -44,27 +44,28 @@ def test_violation_is_found_and_nothing_else(name: str) -> None:
     assert {c.id for c in verdict.conditions if not c.holds_at(TIGHT)} == expected
 
 
-class Line:
-    def __init__(self, shift_m: float) -> None:
-        self.shift_m = shift_m
-
-    def poses(self, s_m: FloatArray, /) -> FloatArray:
-        x0, y0, heading = YIELDS.hero_line
-        return np.column_stack([np.full_like(s_m, x0 + self.shift_m), y0 - s_m, np.full_like(s_m, heading)])
-
-
 @pytest.mark.parametrize(("shift_m", "holds"), [(0.0, True), (0.19, True), (0.3, False)])
 def test_map_and_route_coordinates_must_agree(shift_m: float, holds: bool) -> None:
-    case = replace(YIELDS.case(), paths={"hero": Line(shift_m)})
+    x_m, y_m, heading_rad = YIELDS.hero_line
+    case = replace(YIELDS.case(), paths={"hero": Line(x_m + shift_m, y_m, heading_rad)})
     assert judge(case).condition("route_hero_map").holds_at(LOOSE) == holds
+
+
+def test_without_its_path_a_route_is_not_judged_and_fails() -> None:
+    found = {each.id: each for each in route_conditions(replace(YIELDS.case(), paths={}, unmapped={"ego": "no map"}))}
+    assert not any(
+        found[f"route_{name}_{what}"].holds_at(LOOSE) for name in ("ego", "hero") for what in ("map", "directions")
+    )
+    assert "(not judged: no map)" in found["route_ego_map"].text
+    assert "(not judged: the path of its route is not known)" in found["route_hero_map"].text
 
 
 @pytest.mark.parametrize(
     ("headings", "holds"), [(("S",), True), (("S", "W"), True), (("N",), False), (("W", "S"), False)]
 )
-def test_directions(headings: tuple[str, ...], holds: bool) -> None:
+def test_directions_without_a_map(headings: tuple[str, ...], holds: bool) -> None:
     # The hero stops before its turn ends, so only the first direction can be seen.
-    case = replace(YIELDS.case(), expected_headings={"hero": headings})
+    case = replace(YIELDS.case(), paths={}, expected_headings={"hero": headings})
     assert judge(case).condition("route_hero_directions").holds_at(TIGHT) == holds
 
 
@@ -76,12 +77,12 @@ def test_directions_are_those_of_the_line_where_it_is_known(bent_rad: float, hol
         def poses(self, s_m: FloatArray, /) -> FloatArray:
             return super().poses(s_m) + np.array([0.0, 0.0, bent_rad])
 
-    case = replace(YIELDS.case(), paths={"hero": Bent(0.0)}, expected_headings={"hero": ("E",)})
+    case = replace(YIELDS.case(), paths={"hero": Bent(*YIELDS.hero_line)}, expected_headings={"hero": ("E",)})
     assert judge(case).condition("route_hero_directions").holds_at(TIGHT) == holds
 
 
 def test_directions_after_the_turn() -> None:
-    case = YIELDS.with_hero(pieces=[]).case()
+    case = replace(YIELDS.with_hero(pieces=[]).case(), paths={})
     for headings, holds in ((("S", "S"), True), (("S", "W"), False)):
         verdict = judge(replace(case, expected_headings={"hero": headings}))
         assert verdict.condition("route_hero_directions").holds_at(TIGHT) == holds

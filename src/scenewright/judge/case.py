@@ -76,8 +76,8 @@ class Case:
         By actor name; defaults where absent.
     expected_headings
         By actor name: cardinal directions of the route, first to last.
-    paths
-        By actor name: the route's path, to compare map coordinates with route coordinates.
+    paths, unmapped
+        By actor name: the route's path, to compare map coordinates with route coordinates; why there is none.
 
     Raises
     ------
@@ -94,6 +94,7 @@ class Case:
     limits: Mapping[str, Limits] = field(default_factory=dict)
     expected_headings: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     paths: Mapping[str, PathLike] = field(default_factory=dict)
+    unmapped: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "program", resolve(self.program))
@@ -146,6 +147,19 @@ class Case:
     def limits_of(self, actor_id: int) -> Limits:
         """Return what an actor may do."""
         return self.limits.get(self.name(actor_id), Limits())
+
+    def path(self, actor_id: int) -> PathLike:
+        """Return the path of an actor's route.
+
+        Raises
+        ------
+        CannotJudge
+            If it is not known; says why.
+        """
+        name = self.name(actor_id)
+        if name not in self.paths:
+            raise CannotJudge(self.unmapped.get(name, "the path of its route is not known"))
+        return self.paths[name]
 
     def landmark_m(self, name: str, actor_id: int, other: int | None = None) -> float:
         """Return the arc length of a landmark on an actor's route.

@@ -7,7 +7,9 @@ read, never its knots.
 
 from __future__ import annotations
 
+import hashlib
 import json
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TypeVar
 
@@ -19,6 +21,7 @@ from scenewright.judge.judgement import judge
 from scenewright.judge.verdict import Cause, Verdict
 from scenewright.program.text import parse_program
 from scenewright.program.types import Program
+from scenewright.roads.model import RoadMap
 from scenewright.trace.files import TRACE_FILE, read_trace
 from scenewright.units import UNITS
 
@@ -42,6 +45,7 @@ class MapModel(_Model):
 
     name: str
     file: str
+    sha256: str
 
 
 class VehicleModel(_Model):
@@ -134,7 +138,7 @@ def read_case(directory: Path) -> Case:
             expected=str(SCHEMA_VERSION),
         )
     program = parse_program(_read_text(directory / "program.scene"), "program.scene")
-    paths = _paths(manifest)
+    paths, unmapped = _paths(manifest, (actor.name for actor in program.actors))
     parameters = _si_values(_read_model(directory / "params.json", ParametersModel), program, directory)
     return Case(
         program=program,
@@ -149,26 +153,46 @@ def read_case(directory: Path) -> Case:
         limits={name: Limits(**limits.model_dump(exclude_none=True)) for name, limits in manifest.limits.items()},
         expected_headings={name: route.headings for name, route in manifest.routes.items() if route.headings},
         paths=paths,
+        unmapped=unmapped,
     )
 
 
-def _paths(manifest: ManifestModel) -> dict[str, PathLike]:
-    """Return the routes' paths where the map is still to be had; without it the map coordinates go unchecked."""
-    from scenewright.roads.load import load_map
+def _paths(manifest: ManifestModel, actors: Iterable[str]) -> tuple[dict[str, PathLike], dict[str, str]]:
+    """Return the paths of the actors' routes on the map that was driven on, and by actor why there is none."""
     from scenewright.roads.routes import find_route
 
-    if manifest.map is None:
-        return {}
+    road_map = _map_driven_on(manifest.map)
     paths: dict[str, PathLike] = {}
-    for source in (manifest.map.file, manifest.map.name):
+    unmapped: dict[str, str] = {}
+    for name in actors:
+        if isinstance(road_map, str):
+            unmapped[name] = road_map
+        elif name not in manifest.routes:
+            unmapped[name] = "the manifest names no route of it"
+        else:
+            try:
+                paths[name] = find_route(road_map, lanes=manifest.routes[name].lanes).path
+            except MapError:
+                unmapped[name] = "the map has no such route as the manifest names"
+    return paths, unmapped
+
+
+def _map_driven_on(named: MapModel | None) -> RoadMap | str:
+    """Return the map, where it was or else by its name, or why it is not to be had; another one is not it."""
+    from scenewright.roads.load import load_map
+
+    if named is None:
+        return "the manifest names no map"
+    why = "the map cannot be read"
+    for source in (named.file, named.name):
         try:
             road_map = load_map(source)
-            for name, route in manifest.routes.items():
-                paths[name] = find_route(road_map, lanes=route.lanes).path
-            return paths
-        except MapError:
+            if hashlib.sha256(road_map.source.read_bytes()).hexdigest() == named.sha256:
+                return road_map
+        except (MapError, OSError):
             continue
-    return {}
+        why = "the map is another one by now"
+    return why
 
 
 def write_verdict(verdict: Verdict, path: Path) -> None:

@@ -11,7 +11,7 @@ import numpy as np
 
 from scenewright.judge.case import CannotJudge, Case
 from scenewright.judge.tolerance import FloatArray, Leaf
-from scenewright.judge.verdict import Condition
+from scenewright.judge.verdict import Condition, unjudged
 from scenewright.program.types import Actor
 from scenewright.trace.model import ActorTrace
 from scenewright.translate.phrases import called
@@ -38,13 +38,12 @@ def _route(case: Case, actor: Actor) -> Iterator[Condition]:
     yield _limit(f"route_{name}_heading", f"{name} drives where it points", MAX_ANGLE_RAD, angle, "rad")
     back = float(np.max(np.maximum.accumulate(states.s_m) - states.s_m))
     yield _limit(f"route_{name}_progress", f"{name} never goes back along its route", BACK_M, back, "m")
-    if name in case.expected_headings:
-        yield _headings(case, actor, case.expected_headings[name])
-    if name in case.paths:
-        yield _limit(
-            f"route_{name}_map", f"{name} is on the map where its route coordinates say", MAX_MAP_ERROR_M,
-            _map_error(case, actor), "m",
-        )  # fmt: skip
+    yield _headings(case, actor, case.expected_headings.get(name, ()))
+    text = f"{name} is on the map where its route coordinates say"
+    try:
+        yield _limit(f"route_{name}_map", text, MAX_MAP_ERROR_M, _map_error(case, actor), "m")
+    except CannotJudge as reason:
+        yield unjudged(f"route_{name}_map", "route", text, str(reason))
 
 
 def _limit(condition_id: str, text: str, limit: float, value: float, unit: str) -> Condition:
@@ -66,19 +65,25 @@ def _headings(case: Case, actor: Actor, expected: tuple[str, ...]) -> Condition:
 
     Without the map the first direction is compared at the start and, once the turn is behind the actor, the last one.
     """
-    states = case.timelines[actor.id].states
-    text, limit = f"{called(actor.name)} is headed {', then '.join(expected)}", float(MAX_HEADING_RAD)
-    if actor.name in case.paths:
-        line = case.paths[actor.name].poses(states.s_m)[:, 2]
+    states, limit = case.timelines[actor.id].states, float(MAX_HEADING_RAD)
+    name, text = f"route_{actor.name}_directions", f"{called(actor.name)} is headed"
+    told = f"{text} {', then '.join(expected)}"
+    try:
+        line = case.path(actor.id).poses(states.s_m)[:, 2]
+    except CannotJudge as reason:
+        if not expected:
+            return unjudged(name, "route", f"{text} along the line of its route", str(reason))
+    else:
         worst = float(np.max(np.abs(_wrapped(states.heading_rad - line))))
-        return _limit(f"route_{actor.name}_directions", f"{text}, along the line of its route", limit, worst, "rad")
+        along = f"{told}, along the line of its route" if expected else f"{text} along the line of its route"
+        return _limit(name, along, limit, worst, "rad")
     off = [_off(states.heading_rad[:1], expected[0])]
     try:
         turned = states.s_m >= case.landmark_m("turn_end", actor.id)
         off.append(_off(states.heading_rad[turned], expected[-1]))
     except CannotJudge:
         pass  # a route without a turn has one direction
-    return _limit(f"route_{actor.name}_directions", text, limit, max(off), "rad")
+    return _limit(name, told, limit, max(off), "rad")
 
 
 def _off(headings: FloatArray, cardinal: str) -> float:
@@ -91,7 +96,7 @@ def _wrapped(angle: FloatArray) -> FloatArray:
 
 def _map_error(case: Case, actor: Actor) -> float:
     states = case.timelines[actor.id].states
-    x_m, y_m, heading = case.paths[actor.name].poses(states.s_m).T
+    x_m, y_m, heading = case.path(actor.id).poses(states.s_m).T
     off_x_m = states.x_m - (x_m - states.d_m * np.sin(heading))
     off_y_m = states.y_m - (y_m + states.d_m * np.cos(heading))
     return float(np.max(np.hypot(off_x_m, off_y_m)))
