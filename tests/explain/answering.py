@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from scenewright.drive.protocol import EgoStart, Observation
+from scenewright.drive.protocol import EgoMotion, EgoStart, Observation
 
 
 @dataclass
@@ -61,3 +61,33 @@ class Swings(Heedless):
 
     def wanted(self, observation: Observation) -> float:
         return self.keep_mps + 5.0 * math.sin(2.0 * math.pi * observation.time_s / 3.0)
+
+
+@dataclass
+class Strays:
+    """Keeps 9 m/s, and from 3 s on leaves its line to the left, up to 1.5 m."""
+
+    states_mps: float = 9.0
+
+    def reset(self, start: EgoStart) -> None:
+        self.path, self.s_m = start.route.path, start.s_m
+
+    def beside_m(self, time_s: float) -> float:
+        return min(1.5, max(0.0, 0.5 * (time_s - 3.0)))
+
+    def preferred_speed_mps(self, start: EgoStart) -> float:
+        return self.states_mps
+
+    def step(self, observation: Observation, dt_s: float) -> EgoMotion:
+        self.s_m += 9.0 * dt_s
+        return EgoMotion(*self.path.to_cartesian(self.s_m, self.beside_m(observation.time_s)), self.states_mps)
+
+
+@dataclass
+class States(Strays):
+    """Keeps 9 m/s on its line, and states 11 m/s."""
+
+    states_mps: float = 11.0
+
+    def beside_m(self, time_s: float) -> float:
+        return 0.0

@@ -94,6 +94,26 @@ def test_what_an_ego_alone_is_asked_for_is_its_own_to_miss() -> None:
     assert "the ego alone decides" in found.text.lower()
 
 
+@pytest.mark.parametrize(("ego", "condition"), [("Strays", "route_ego"), ("States", "kin_ego_map_drift")])
+def test_what_an_ego_owes_in_any_run_is_its_own_to_miss_and_no_number_mends_it(ego: str, condition: str) -> None:
+    request = Request(STORIES["yields, distance"], ego=f"answering:{ego}", takes=1, replan_hz=4.0, explain="ways out")
+    result = orchestrate(request)
+    assert result.verdict is not None
+    missed = {each.id for each in result.verdict.conditions if not each.holds_at(TIGHT)}
+    found = cause(result)
+    assert (found.kind, found.evidence["condition"] in missed, condition in missed) == ("ego", True, True)
+    assert "owes in any run" in found.text
+    assert (found.would_do, found.tried) == ((), 0)
+
+
+@pytest.mark.parametrize(("actor", "whose"), [("ego", True), ("hero", False)])
+def test_what_is_owed_is_only_the_egos_where_it_owes_it_and_was_seen_to_miss_it(actor: str, whose: bool) -> None:
+    story = parse_program(STORIES["yields, distance"])
+    owed = bounded("x", "safety", "x", required=0.0, measured=1.0, error=1.0, dimension="speed", owed_by=actor)
+    assert (_denied(story, [owed], [], None) is not None) is whose
+    assert _denied(story, [replace(owed, miss=None)], [], None) is None
+
+
 @pytest.mark.parametrize(("failed", "whose"), [(("ego",), True), (("ego", "hero"), False)])
 def test_a_moment_of_both_that_both_miss_is_not_the_egos_to_miss(failed: tuple[str, ...], whose: bool) -> None:
     """It is judged where it is nearest to either side: the ego may well have been at its place, a moment sooner."""

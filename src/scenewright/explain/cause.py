@@ -41,8 +41,9 @@ def cause_of(world: World, run: Run, verdict: Verdict, tolerance: Tolerance, pro
     """Return why a run missed at `tolerance`: the first of these that the evidence shows.
 
     1. *ego*: it never came to its side of the trigger, no hero could have done it against its drive (`proof`), a
-       condition on it alone failed, or it crashed with a hero after that one's trigger and before another's. Where it
-       slowed down for a hero, that is in the *way*, and it is never the ego's doing; nor is a crash before the trigger.
+       condition on it alone, or one that it owes in any run, failed, or it crashed with a hero after that one's trigger
+       and before another's. Where it slowed down for a hero, that is in the *way*, and it is never the ego's doing; nor
+       is a crash before the trigger.
     2. *order*: all was well but who came first.
     3. *authority*: from the last plan on that would have done, a hero was at limits of its motion for most of a piece.
        That stands against what was asked of places, speeds and times, not against what any run owes.
@@ -125,6 +126,12 @@ def _denied(
             f"against the way the ego drove, no hero within the laws of motion could have met all of {told}",
             {"proof": [str(clash) for clash in proof.clashes]},
         )
+    for condition in missed:
+        if condition.owed_by == program.ego.name and condition.miss is not None:
+            return Finding(
+                f'the ego did not do what it owes in any run: "{condition.text}" is off by {condition.off_by}',
+                {"condition": condition.id, "proof": [str(condition.text)], "off": condition.error},
+            )
     for condition in missed:
         # Where it starts, and when a trigger comes, is not in its hands alone.
         its_own = condition.id in alone and condition.kind not in ("initial", "trigger")

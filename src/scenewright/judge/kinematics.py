@@ -69,6 +69,7 @@ def kinematic_conditions(case: Case) -> list[Condition]:
         bounded(
             f"kin_{actor.name}_{finding.name}", "safety", f"{called(actor.name)}: {finding.text}",
             required=finding.required, measured=finding.measured, error=finding.error, dimension=finding.dimension,
+            owed_by=actor.name,
         )
         for actor in case.program.actors
         for finding in (_agreements if actor.id == EGO else kinematic_findings)(case, actor.id)

@@ -6,6 +6,7 @@ What enters: a `Case`. What leaves: conditions of kind route.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 
@@ -27,7 +28,7 @@ _CARDINALS = {"E": 0.0, "N": np.pi / 2, "W": np.pi, "S": -np.pi / 2}
 
 def route_conditions(case: Case) -> list[Condition]:
     """Judge the route of every actor."""
-    return [condition for actor in case.program.actors for condition in _route(case, actor)]
+    return [replace(each, owed_by=actor.name) for actor in case.program.actors for each in _route(case, actor)]
 
 
 def _route(case: Case, actor: Actor) -> Iterator[Condition]:

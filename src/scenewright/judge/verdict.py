@@ -36,6 +36,9 @@ class Condition:
     miss
         The error by dimension, to which tolerances are applied; None where the condition could not be judged, which
         fails.
+    owed_by
+        Name of the actor that owes this in any run, whatever is asked for; None where the program asks for it, or it is
+        in nobody's hands alone.
     """
 
     id: str
@@ -46,6 +49,7 @@ class Condition:
     error: float | None
     unit: str
     miss: Miss | None
+    owed_by: str | None = None
 
     def normalised_error(self, tolerance: Tolerance) -> float:
         """Return the error in units of the tolerance; infinite where the condition could not be judged."""
@@ -174,10 +178,11 @@ def bounded(
     error: float,
     dimension: Dimension | None,
     exact: bool = False,
+    owed_by: str | None = None,
 ) -> Condition:
     """Return a condition on one quantity; `exact` where no tolerance applies to it."""
     miss = Leaf(abs(error), None if exact else dimension)
-    return Condition(condition_id, kind, text, required, measured, error, unit_symbol(dimension), miss)
+    return Condition(condition_id, kind, text, required, measured, error, unit_symbol(dimension), miss, owed_by)
 
 
 def unjudged(condition_id: str, kind: Kind, text: str, reason: str) -> Condition:
