@@ -126,6 +126,21 @@ def test_actors_sampled_at_different_times_are_told(tmp_path: Path) -> None:
         read_trace(path)
 
 
+@pytest.mark.parametrize(("left_out", "found"), [(range(2, 5), "step 5 of ego where step 2"), (range(1), "step 1 of")])
+def test_a_missing_step_is_named(tmp_path: Path, left_out: range, found: str) -> None:
+    """The last ones may be: a run may end early."""
+    path = tmp_path / TRACE_FILE
+    write_trace(one(7), path)
+    whole = pq.read_table(path)
+    pq.write_table(whole.take(pa.array([row for row in range(14) if row // 2 not in left_out])), path)
+    with pytest.raises(InputError, match="lacks a step") as caught:
+        read_trace(path)
+    assert caught.value.found is not None
+    assert caught.value.found.startswith(found)
+    pq.write_table(whole.slice(0, 8), path)
+    assert len(read_trace(path).time_s) == 4
+
+
 @pytest.mark.parametrize("column", ["s_m", "time_s"])
 def test_columns_that_are_no_numbers_are_told(tmp_path: Path, column: str) -> None:
     path = tmp_path / TRACE_FILE

@@ -42,7 +42,7 @@ def read_trace(path: Path) -> Trace:
     Raises
     ------
     InputError
-        Where the file is missing, is not Parquet, or lacks a column.
+        Where the file is missing, is not Parquet, or lacks a column or a step.
     """
     import pyarrow as pa
     import pyarrow.parquet as pq
@@ -62,11 +62,13 @@ def read_trace(path: Path) -> Trace:
         )
     numbers = {column: _numbers(table.column(column), column, path) for column in ("time_s", *COLUMNS)}
     actor_column = np.asarray(table.column("actor").to_pylist(), dtype=object)
-    actors: dict[str, ActorTrace] = {}
+    step = _numbers(table.column("step"), "step", path)
+    actors, steps = dict[str, ActorTrace](), dict[str, FloatArray]()
     for name in dict.fromkeys(actor_column.tolist()):
         rows = actor_column == name
         order = np.argsort(numbers["time_s"][rows], kind="stable")
         actors[str(name)] = ActorTrace(**{column: values[rows][order] for column, values in numbers.items()})
+        steps[str(name)] = step[rows][order]
     if not actors:
         raise InputError("the trace is empty", place=Place(str(path)))
     axes = [actor.time_s for actor in actors.values()]
@@ -77,7 +79,21 @@ def read_trace(path: Path) -> Trace:
             found=", ".join(f"{name}: {len(actor.time_s)} samples" for name, actor in actors.items()),
             expected="one row per step and actor",
         )
+    for name, numbered in steps.items():
+        _check_none_is_missing(name, numbered, path)
     return Trace(actors)
+
+
+def _check_none_is_missing(actor: str, steps: FloatArray, path: Path) -> None:
+    """Refuse a trace with a hole: it would pass for one long step in which nothing happened."""
+    astray = np.flatnonzero(steps != np.arange(len(steps)))
+    if len(astray):
+        raise InputError(
+            "the trace lacks a step",
+            place=Place(str(path)),
+            found=f"step {steps[astray[0]]:g} of {actor} where step {astray[0]} should be",
+            expected="one row per step and actor, the first step being 0",
+        )
 
 
 def _numbers(column: ChunkedArray[Any], name: str, path: Path) -> FloatArray:
