@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from scenewright.judge.instants import first_crossing, minima, sharpen
+from scenewright.judge.instants import first_crossing, minima, sharpen, stretches
 from scenewright.judge.tolerance import FloatArray
 
 GRID = np.arange(0.0, 10.0 + 1e-9, 0.02)
@@ -62,3 +62,13 @@ def test_what_has_no_value_anywhere_has_no_minimum() -> None:
     assert minima(lambda t: np.full_like(t, np.inf), GRID) == []
     (best,) = minima(lambda t: np.where(t < 7.0, np.inf, t), GRID)
     assert best.time_s == pytest.approx(7.0, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("holds", "found"),
+    [([], []), ([0, 0], []), ([1], [(0, 0)]), ([1, 1, 0, 0, 1], [(0, 1), (4, 4)]), ([0, 1, 1], [(1, 2)])],
+)
+def test_stretches_are_from_the_first_to_the_last_point_that_holds(
+    holds: list[int], found: list[tuple[int, int]]
+) -> None:
+    assert stretches(np.array(holds, dtype=bool)) == found

@@ -141,3 +141,22 @@ def test_a_moment_of_a_stretch_is_where_it_was_acted_upon(brakes_s: float, holds
     assert (failing(verdict) == set()) is holds
     if holds:
         assert verdict.facts["trigger_time_s"]["hero"] == pytest.approx(brakes_s, abs=0.11)
+
+
+# The headway falls to 1.5 s at 5.4 s, within tolerance for 0.3 s; it comes to that again at 7.7 s, for a slow ego.
+AGAIN = replace(
+    RANGE,
+    text=text("[t0, go, t1, dec, t2]", "A0(t1) == A1(t1)\nheadway(A0, A1, t1) == 1.5\nA1v(t2) == 6", heading="E"),
+    ego=Motion(0.0, 14.0, [(6.0, 0.0), (2.5, -4.0)]),
+    trigger_s=5.4,
+    duration_s=15.0,
+)
+
+
+@pytest.mark.parametrize(("brakes_s", "late"), [(5.45, False), (5.55, True)])
+@pytest.mark.parametrize("ends_s", [7.0, 15.0])
+def test_that_a_moment_comes_again_later_does_not_move_it(brakes_s: float, late: bool, ends_s: float) -> None:
+    hero = Motion(52.5, 9.0, [(brakes_s, 0.0), (1.2, -2.5)])
+    verdict = judge(replace(AGAIN, hero=hero, duration_s=ends_s).case())
+    assert failing(verdict) == ({"hero_onset"} if late else set())
+    assert verdict.facts["trigger_time_s"]["hero"] == pytest.approx(5.4, abs=0.01)

@@ -42,6 +42,12 @@ def minima(score: Score, grid_s: FloatArray) -> list[Minimum]:
     return sorted(found, key=lambda minimum: (round(minimum.score, 9), minimum.time_s))
 
 
+def stretches(holds: NDArray[np.bool_]) -> list[tuple[int, int]]:
+    """Return the first and the last index of each stretch of points at which something holds."""
+    edges = np.flatnonzero(np.diff(np.concatenate(([False], holds, [False]))))
+    return [(int(first), int(beyond) - 1) for first, beyond in edges.reshape(-1, 2)]
+
+
 def sharpen(score: Score, grid_s: FloatArray) -> FloatArray:
     """Return the refined instants of the lowest few local minima."""
     return np.array([minimum.time_s for minimum in minima(score, grid_s)[:4]], dtype=np.float64)

@@ -15,7 +15,7 @@ import numpy as np
 
 from scenewright.judge.case import CannotJudge, Case
 from scenewright.judge.formulas import miss_of
-from scenewright.judge.instants import Minimum, first_crossing, minima
+from scenewright.judge.instants import Minimum, first_crossing, minima, stretches
 from scenewright.judge.phases import BRAKING, SPEEDING_UP, Phase, Sign, move_off_after, phase_at, rest_after
 from scenewright.judge.terms import Moments, Span, sides
 from scenewright.judge.tolerance import LOOSE, TIGHT, FloatArray, Values, normalised
@@ -89,18 +89,18 @@ def measure(case: Case, told: Mapping[KnotKey, float]) -> Measured:
     return Measured(Moments(knots, _spans(case, knots, onsets)), triggers, onsets, (*together, *free), visible)
 
 
-def best_instants(case: Case) -> tuple[dict[KnotKey, float], tuple[Group, ...]]:
+def best_instants(case: Case) -> tuple[dict[KnotKey, float], dict[Group, list[Span]]]:
     """Return when the knots were of which the program says that they are one moment, and what holds at it.
 
-    With them come those of them for which another moment does as well.
+    With them come those of them for which another moment does as well, and when all of these were.
     """
     found = {(actor.id, actor.sketch.knots[0]): case.start_s for actor in case.program.actors}
-    unseen = []
+    several: dict[Group, list[Span]] = {}
     for group in _groups(case):
         if (chosen := _best_instant(case, group, found)) is not None:
             found.update(dict.fromkeys(group, chosen[0]))
-            unseen += [group] * (not chosen[1])
-    return found, tuple(unseen)
+            several[group] = chosen[1]
+    return found, {group: moments for group, moments in several.items() if moments}
 
 
 def conjuncts(formula: Formula) -> Iterator[Formula]:
@@ -173,8 +173,8 @@ def between(
     return low, high
 
 
-def _best_instant(case: Case, group: Group, knots: dict[KnotKey, float]) -> tuple[float, bool] | None:
-    """Return the instant at which what the program says of it holds best, and whether it holds at no other."""
+def _best_instant(case: Case, group: Group, knots: dict[KnotKey, float]) -> tuple[float, list[Span]] | None:
+    """Return the instant at which what the program says of it holds best, and all at which it does if others do too."""
     parts = sides_of(case, group, set(knots))
     low, high = between(case, group, knots)
     grid = case.timelines[0].instants(low, max(low, high), parts=2)
@@ -191,11 +191,26 @@ def _best_instant(case: Case, group: Group, knots: dict[KnotKey, float]) -> tupl
         return None
     found = minima(score, grid)
     if not found:
-        return np.inf, True
+        return np.inf, []
     chosen = _likeliest(case, group, judged, found)
     misses, off_s = score(grid), np.abs(grid - chosen)
     elsewhere = ((misses <= 1) & (off_s > _NEAR_S)) | ((misses <= _EXACTLY) & (off_s > TIGHT.time_s))
-    return chosen, not np.any(elsewhere)
+    return chosen, _moments(grid, misses, found) if np.any(elsewhere) else []
+
+
+def _moments(grid: FloatArray, misses: FloatArray, found: list[Minimum]) -> list[Span]:
+    """Return when a moment may have been that may have been more than once.
+
+    That is where what is said of it holds best, and all the time that it holds exactly, or within tolerances for long.
+    """
+    moments = [(minimum.time_s, minimum.time_s) for minimum in found]
+    for most, lasts_s in ((_EXACTLY, 0.0), (1.0, _NEAR_S)):
+        for first, last in stretches(misses <= most):
+            begins_s, ends_s = float(grid[max(first - 1, 0)]), float(grid[min(last + 1, len(grid) - 1)])
+            best_s = float(grid[first + int(np.argmin(misses[first : last + 1]))])
+            if max(best_s - begins_s, ends_s - best_s) > lasts_s:
+                moments.append((begins_s, ends_s))
+    return moments
 
 
 def _likeliest(case: Case, group: Group, judged: list[Formula], found: list[Minimum]) -> float:

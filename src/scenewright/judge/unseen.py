@@ -7,7 +7,7 @@ been any, and one that something visible ties to it may be wherever that is seen
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -18,7 +18,7 @@ from scenewright.judge.formulas import miss_of
 from scenewright.judge.instants import minima
 from scenewright.judge.interaction import interaction_conditions
 from scenewright.judge.knots import Group, Measured, best_instants, between, conjuncts, measure, visible_times
-from scenewright.judge.terms import Moments
+from scenewright.judge.terms import Moments, Span
 from scenewright.judge.tolerance import LOOSE, TIGHT, FloatArray, normalised
 from scenewright.program.expressions import Compare, PieceRef, State, walk
 from scenewright.program.structure import KnotKey, knots_of
@@ -49,7 +49,7 @@ def measured_at_best(case: Case) -> Measured:
         follows = frozenset[KnotKey]().union(*first.visible) - told.keys()
         others = frozenset[KnotKey]().union(*free)
         low, high = between(case, group, found.moments.knots, others, follows)
-        for time_s in _candidates(case, found, group, low, high, group in first.visible):
+        for time_s in _candidates(case, found, group, low, high, group in first.visible, several.get(group)):
             if not _concerned(case, amiss, group):
                 break
             other_told = {**told, **dict.fromkeys(group, time_s)}
@@ -83,16 +83,26 @@ def _concerned(case: Case, amiss: Amiss, group: Group) -> bool:
 
 
 def _candidates(
-    case: Case, measured: Measured, group: Group, low: float, high: float, visible: bool
+    case: Case,
+    measured: Measured,
+    group: Group,
+    low: float,
+    high: float,
+    visible: bool,
+    among: Sequence[Span] | None,
 ) -> Iterable[float]:
-    """Return moments between two, likely ones first."""
+    """Return moments between two, likely ones first; `among` are those that what is said of the moment leaves."""
     if not high > low:
         return ()
     seen = [time_s for key in group for time_s in visible_times(case, key, low, high)]
     if visible:
         return seen
     likely = _best_of_each(case, measured.moments.knots, group, low, high)
-    return dict.fromkeys([*seen, *likely, *np.linspace(low, high, _TRIED).tolist()])
+    all_s = dict.fromkeys([*seen, *likely, *np.linspace(low, high, _TRIED).tolist()])
+    if among is None:
+        return all_s
+    bests = [first for first, last in among if first == last and low <= first <= high]
+    return dict.fromkeys([*bests, *(t for t in all_s if any(first <= t <= last for first, last in among))])
 
 
 def _best_of_each(
