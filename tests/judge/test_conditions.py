@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 from plays import BRAKES, NOT_YIELDING, YIELDS, YIELDS_AT_S, Play, failed
 
+from scenewright.judge.conditions import Judged, program_conditions
 from scenewright.judge.judgement import judge
+from scenewright.judge.knots import best_instants, measure
 from scenewright.judge.tolerance import LOOSE, TIGHT, Tolerance
 from scenewright.judge.verdict import Condition
 
@@ -128,3 +130,16 @@ def test_what_is_no_comparison_is_told_in_tolerances() -> None:
     assert (condition.required, condition.measured) == (None, None)
     assert condition.error == pytest.approx(0.5 / 0.25)
     assert condition.text.endswith("(error in tight tolerances)")
+
+
+def test_only_what_speaks_of_a_moved_knot_is_judged_again() -> None:
+    case, judged = BRAKES.case(), Judged()
+    measured = measure(case, best_instants(case)[0])
+    first = program_conditions(case, measured, judged)
+    moved = replace(measured.moments, knots={**measured.moments.knots, (1, "t2"): 9.0})
+    again = program_conditions(case, replace(measured, moments=moved), judged)
+    assert [new.id for old, new in zip(first, again, strict=True) if new is not old] == ["c5"]  # A1v(t2) == 0
+    anew = program_conditions(case, replace(measured, moments=moved))
+    assert [each.as_dict() for each in again] == [each.as_dict() for each in anew]
+    shorter = replace(moved, spans={**moved.spans, (1, 1): (7.5, 8.0)})
+    assert program_conditions(case, replace(measured, moments=shorter), judged)[3] is not first[3]  # A1a(dec)

@@ -5,6 +5,7 @@ What enters: a `Case` and what was measured. What leaves: conditions with requir
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from fractions import Fraction
 
@@ -41,11 +42,32 @@ _KINDS: dict[Role, Kind] = {
     Role.OUTCOME: "outcome",
 }
 
+Judged = dict[tuple[object, ...], Condition]
 
-def program_conditions(case: Case, measured: Measured) -> list[Condition]:
-    """Judge every constraint of the program, in its order."""
-    told = told_constraints(case.program)
-    return [_judge(case, measured, constraint, told[constraint.id]) for constraint in case.program.constraints]
+
+def program_conditions(case: Case, measured: Measured, judged: Judged | None = None) -> list[Condition]:
+    """Judge every constraint of the program, in its order.
+
+    Parameters
+    ----------
+    judged
+        What was judged of this case before, by what it rests on: who tries many moments keeps it from one to the next.
+    """
+    told, known = told_constraints(case.program), {} if judged is None else judged
+    conditions = []
+    for constraint in case.program.constraints:
+        key = (constraint.id, *_rests_on(measured.moments, constraint.formula))
+        if key not in known:
+            known[key] = _judge(case, measured, constraint, told[constraint.id])
+        conditions.append(known[key])
+    return conditions
+
+
+def _rests_on(moments: Moments, formula: Formula) -> Iterator[object]:
+    """Yield when the knots were that a formula speaks of, and the pieces of those of whose pieces it does."""
+    yield from (moments.knots.get(key) for key in knots_of(formula))
+    actors = {node.actor for node in walk(formula) if isinstance(node, State) and isinstance(node.at, PieceRef)}
+    yield from (each for each in moments.spans.items() if each[0][0] in actors)
 
 
 def _judge(case: Case, measured: Measured, constraint: Constraint, text: str) -> Condition:

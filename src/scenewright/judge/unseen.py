@@ -13,7 +13,7 @@ from typing import NamedTuple
 import numpy as np
 
 from scenewright.judge.case import CannotJudge, Case
-from scenewright.judge.conditions import program_conditions
+from scenewright.judge.conditions import Judged, program_conditions
 from scenewright.judge.formulas import miss_of
 from scenewright.judge.instants import minima
 from scenewright.judge.interaction import interaction_conditions
@@ -42,7 +42,8 @@ def measured_at_best(case: Case) -> Measured:
     first = found = measure(case, told)
     free = (*several, *first.free)
     loose = (*first.visible, *free)
-    amiss = _amiss(case, found) if loose else Amiss(0, ())
+    judged: Judged = {}
+    amiss = _amiss(case, found, judged) if loose else Amiss(0, ())
     for group in loose * _PASSES:
         if not _concerned(case, amiss, group):
             continue
@@ -54,14 +55,14 @@ def measured_at_best(case: Case) -> Measured:
                 break
             other_told = {**told, **dict.fromkeys(group, time_s)}
             other = measure(case, other_told)
-            less = _amiss(case, other)
+            less = _amiss(case, other, judged)
             if less.loose <= amiss.loose and len(less.tight) < len(amiss.tight):
                 told, found, amiss = other_told, other, less
     return found
 
 
-def _amiss(case: Case, measured: Measured) -> Amiss:
-    conditions = [*program_conditions(case, measured), *interaction_conditions(case, measured)]
+def _amiss(case: Case, measured: Measured, judged: Judged) -> Amiss:
+    conditions = [*program_conditions(case, measured, judged), *interaction_conditions(case, measured)]
     tight = tuple(each.id for each in conditions if not each.holds_at(TIGHT))
     return Amiss(sum(not each.holds_at(LOOSE) for each in conditions), tight)
 
