@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import shutil
 import signal
@@ -13,6 +14,8 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 
 import hypothesis
 import pytest
+
+from scenewright.simulate.loop import Rates
 
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     # Started in the background of a shell: whatever a test starts would ignore Ctrl-C too.
@@ -55,6 +58,16 @@ def searched_less(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("scenewright.solve.proofs.decide._WORK_PER_S", 200_000)
 
 
+@pytest.fixture
+def replanned_seldom(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let plans be made anew twice a second, for tests of what becomes of whole runs: a plan takes as long as they."""
+
+    def rates(replan_s: float | None) -> Rates:
+        return Rates(replan_s=None if replan_s is None else max(0.5, replan_s))
+
+    monkeypatch.setattr("scenewright.orchestrate.Rates", rates)
+
+
 @pytest.fixture(scope="session")
 def shared_dir() -> Path:
     """Return the folder `shared` beside the clone, which holds maps and texts that are not ours to keep in it."""
@@ -74,3 +87,14 @@ def chromium() -> str:
     if os.environ.get("SCENEWRIGHT_REQUIRE_BROWSER") == "1":
         pytest.fail(f"{reason}, and SCENEWRIGHT_REQUIRE_BROWSER=1 asks for one")
     pytest.skip(reason)
+
+
+def pytest_collection() -> None:
+    """Let nothing look for garbage while tests are collected: there is none, and it takes a quarter of that time."""
+    gc.disable()
+
+
+def pytest_collection_finish() -> None:
+    """Look for garbage again, but not among what was collected: that stays to the end."""
+    gc.freeze()
+    gc.enable()

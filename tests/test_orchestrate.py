@@ -209,6 +209,7 @@ def test_plan_and_resolves_are_written(written: tuple[Result, Path]) -> None:
     assert {"time_s", "status", "backend", "wall_s", "tolerance", "reason"} <= set(rows[0])
 
 
+@pytest.mark.usefixtures("replanned_seldom")
 def test_who_drives_on_after_standing_moves_off() -> None:
     text = (
         "The ego drives westbound at 50 km/h. The hero is eastbound and turns left into the driveway. When the ego is "
@@ -235,6 +236,7 @@ def test_tolerance_decides_the_status() -> None:
     assert statuses == {"success", "failure"}
 
 
+@pytest.mark.usefixtures("replanned_seldom")
 def test_nothing_is_written_where_nothing_is_asked_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     result = orchestrate(Request(SENTENCE, FINE))
@@ -283,6 +285,7 @@ A0x(t1) == conflict_point + 10
 """
 
 
+@pytest.mark.usefixtures("replanned_seldom")
 def test_with_three_actors_planner_and_judge_mean_the_same_conflict_points(tmp_path: Path) -> None:
     result = orchestrate(Request(THREE, ego="constant", out=tmp_path))
     assert result.status == "success"
@@ -300,6 +303,7 @@ def test_with_three_actors_planner_and_judge_mean_the_same_conflict_points(tmp_p
     assert marks["conflict_point(other)"] - marks["conflict_point"] > 5.0
 
 
+@pytest.mark.usefixtures("replanned_seldom")
 @pytest.mark.parametrize("line", ["A1x(t1) == A0x(t1) + 20", "A1x(t1) - A0x(t1) == 20", "A1x(t1) - 20 == A0x(t1)"])
 def test_places_on_merging_routes_are_compared_along_the_lane_in_common(line: str, tmp_path: Path) -> None:
     result = orchestrate(Request(MERGING + line, ego="constant", out=tmp_path))
@@ -314,6 +318,7 @@ def test_places_on_merging_routes_are_compared_along_the_lane_in_common(line: st
     assert judge_run_directory(tmp_path).holds_at(TIGHT)
 
 
+@pytest.mark.usefixtures("replanned_seldom")
 def test_routes_that_share_a_road_and_cross_in_the_junction_meet_there(shared_dir: Path) -> None:
     cases = shared_dir / "cases"
     text = (cases / "loop.txt").read_text(encoding="utf-8")

@@ -70,7 +70,9 @@ def test_success_has_no_cause() -> None:
 
 
 def test_nothing_is_asked_where_nobody_wants_to_know() -> None:
-    result = orchestrate(Request(STORIES["goes first, distance"], ego="speeder", takes=1, explain="nothing"))
+    result = orchestrate(
+        Request(STORIES["goes first, distance"], ego="speeder", takes=1, explain="nothing", replan_hz=4.0)
+    )
     assert result.verdict is not None
     assert (result.status, result.verdict.cause, result.hindsight) == ("failure", None, None)
 
@@ -89,7 +91,7 @@ def test_cause_is_written_and_read_back(tmp_path: Path) -> None:
 
 def test_what_an_ego_alone_is_asked_for_is_its_own_to_miss() -> None:
     text = STORIES["yields, distance"] + "afterwards: A0v(t2) == 11\nA0x(t2) == conflict_point + 20\n"
-    found = cause(orchestrate(Request(text, ego="answering:Heedless:keep_mps=10.5", takes=1)))
+    found = cause(orchestrate(Request(text, ego="answering:Heedless:keep_mps=10.5", takes=1, replan_hz=4.0)))
     assert (found.kind, found.evidence["condition"]) == ("ego", "afterwards")
     assert "the ego alone decides" in found.text.lower()
 
@@ -221,7 +223,7 @@ A1x(t1) == conflict_point - 12
 always[A1(t0), A1(t2)] (A1v == 15 km/h)
 A1x(t2) == conflict_point + 8
 """
-    result = orchestrate(Request(program, ego="answering:Early", takes=1))
+    result = orchestrate(Request(program, ego="answering:Early", takes=1, replan_hz=4.0))
     assert result.run is not None
     found = cause(result)
     assert found.kind == "prediction"
