@@ -87,7 +87,7 @@ def problem_of(text: str, at_s: float = 0.0, s_m: float = EGO_S_M) -> Problem:
     planner = planner_of(scene_of(text))
     planner.begin((0.0, s_m, EGO_MPS, 0.0))
     if not at_s:
-        situation = planner._first_situation(planner.plan.profiles[EGO], 0.0, planner.plan.profiles)
+        situation = planner._first_situation(planner.plan.profiles[EGO], planner.plan.profiles)
         return Problem(planner._asked, situation)
     ego = planner.plan.profiles[EGO]
     for k in range(1, round(at_s / 0.02) + 1):

@@ -7,7 +7,7 @@ from many_heroes import PROGRAMS
 from situations import planner_of, scene_of
 
 from scenewright.motion.profile import Profile, chain
-from scenewright.plan.guesses import even_motions, meet_later
+from scenewright.plan.guesses import JOINT_S, even_motions, meet_later
 from scenewright.program.structure import read_structure
 from scenewright.program.types import EGO
 from scenewright.solve.proofs.witness import Witness
@@ -29,7 +29,7 @@ def test_each_comes_evenly_to_where_its_trigger_wants_it(program: str) -> None:
     planner = planner_of(scene_of(PROGRAMS[program](4)))
     ego = Profile(chain(0.0, 20.0, 12.0, [(60.0, 0.0, 0)]))
     for pace in (0.25, 0.8):
-        found, told = even_motions(planner._asked, planner._times, ego, None, 0.0, pace)
+        found, told = even_motions(planner._asked, planner._times, ego, None, pace)
         assert told
         motions = {**found, EGO: ego}
         for hero in planner.scene.program.heroes:
@@ -44,12 +44,12 @@ def test_each_comes_evenly_to_where_its_trigger_wants_it(program: str) -> None:
                 assert [c.value(states) for c in here] == pytest.approx([0.0] * len(here), abs=1e-6)
 
 
-def test_who_decides_too_when_its_trigger_comes_is_guessed_at_the_time_that_is_given() -> None:
+def test_who_decides_too_when_its_trigger_comes_is_guessed_to_come_in_a_few_seconds() -> None:
     planner = planner_of(scene_of(JOINT))
     ego = Profile(chain(0.0, 20.0, 12.0, [(60.0, 0.0, 0)]))
-    found, told = even_motions(planner._asked, planner._times, ego, None, 3.5, 0.5)
+    found, told = even_motions(planner._asked, planner._times, ego, None, 0.5)
     assert not told
-    assert found[1].state(3.5)[0] + planner.scene.offset_m(EGO, 1) - ego.state(3.5)[0] == pytest.approx(20.0)
+    assert found[1].state(JOINT_S)[0] + planner.scene.offset_m(EGO, 1) - ego.state(JOINT_S)[0] == pytest.approx(20.0)
 
 
 @pytest.mark.parametrize(("text", "later"), [(JOINT, False), (PROGRAMS["mixed"](4), False)])
@@ -70,6 +70,6 @@ def test_where_no_condition_tells_a_place_it_is_as_far_from_the_ego_as_in_a_witn
     planner = planner_of(scene_of(text))
     ego = Profile(chain(0.0, 60.0, 12.0, [(60.0, 0.0, 0)]))
     moves = {EGO: Profile(chain(0.0, 100.0, 9.0, [(9.0, 0.0, 0)])), 1: Profile(chain(0.0, 83.0, 9.0, [(9.0, 0.0, 0)]))}
-    found, told = even_motions(planner._asked, planner._times, ego, Witness(moves, {}, {}, 9.0), 0.0, 0.5)
+    found, told = even_motions(planner._asked, planner._times, ego, Witness(moves, {}, {}, 9.0), 0.5)
     assert not told
     assert found[1].state(0.0)[0] == pytest.approx(60.0 - 17.0)

@@ -16,9 +16,11 @@ from scenewright.program.types import EGO, Actor, Program
 from scenewright.roads.conflicts import shared_offset_m
 from scenewright.solve.proofs.witness import Witness
 
+JOINT_S = 3.5  # when a trigger comes of which both decide; chosen, plans move it
+
 
 def even_motions(
-    asked: Asked, times: TriggerTimes, prediction: Profile, witness: Witness | None, joint_s: float, pace: float
+    asked: Asked, times: TriggerTimes, prediction: Profile, witness: Witness | None, pace: float
 ) -> tuple[dict[int, Profile], bool]:
     """Return a motion for each hero, and whether a condition tells the place of each: so that they tell who goes first.
 
@@ -26,8 +28,6 @@ def even_motions(
     ----------
     witness
         How it can happen, if that is known: where no condition tells a place, it is so far from the ego as there.
-    joint_s
-        When a trigger comes of which both decide (s).
     pace
         How fast heroes come, as a share of the speed that is natural on their way.
     """
@@ -35,8 +35,9 @@ def even_motions(
     times_s: dict[int, float] = {}
     told = True
     for hero in asked.scene.program.heroes:
-        speed_mps = pace * asked.limits[hero.id].natural_approach_speed_mps
-        instant, at_s = asked.until(hero.id), joint_s
+        instant, at_s = asked.until(hero.id), JOINT_S
+        share = asked.wanted.natural_share if instant is None else pace  # who acts at no moment would just stay slow
+        speed_mps = share * asked.limits[hero.id].natural_approach_speed_mps
         if times.ego_decides(hero):
             at_s = times.instant_s(hero, 0.0, prediction, None)
         elif hero.id not in asked.structure.triggers and instant is not None:  # it hangs on others that came before
@@ -75,5 +76,8 @@ def _place_m(
     for condition in times.conditions:
         here = condition.moments <= instant and set(condition.weights) <= {hero.id, *states}
         if here and hero.id in condition.weights and (per_metre := condition.weights[hero.id][0]):
-            return -condition.value({**states, hero.id: (0.0, speed_mps)}) / per_metre
+            there_m = -condition.value({**states, hero.id: (0.0, speed_mps)}) / per_metre
+            meets = asked.scene.conflict(EGO, hero.id)
+            merges = meets is not None and meets.kind == "merging" and EGO in condition.weights
+            return max(there_m, meets.s_b_m) if merges and meets else there_m  # how far apart is told on one lane
     return None

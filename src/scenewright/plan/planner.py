@@ -28,9 +28,9 @@ from scenewright.solve.plan import Plan
 # Newton steps of a first plan and of a tick, and how many more a tick has for each second that a trigger has moved by:
 # a step of several heroes counts for each of them, and the next tick goes on. Measured: fewer than four lose orders.
 _FIRST_STEPS, _TICK_STEPS, _STEPS_A_SECOND, _MOST_STEPS_MORE = 40, 4, 12, 16
-# First plans are solved for from these speeds (shares of the natural one) and, where both decide, triggers (s): Newton
-# finds the nearest plan, not the best.
-_PACES, _JOINT_S = (0.8, 0.45, 0.25), (3.5, 6.0)
+# First plans are solved for from these speeds (shares of the natural one), for Newton finds the nearest plan, not the
+# best: who comes slowly can still do either.
+_PACES = 0.25, 0.8
 # What a step has to gain in a tick, from which the next one goes on, and in any plan for each further hero. A tight
 # tolerance that is missed costs hundreds. Measured: with 0.01 ticks take half as long, and 133 runs are met as often.
 _ENOUGH_TICK, _ENOUGH_EACH = 0.01, 0.3
@@ -113,26 +113,21 @@ class Planner(Standing):
         self._ego.samples, self._times.ego_began = [ego], ego[1:3]
         self.ego_knots_s = {self.scene.program.ego.sketch.knots[0]: 0.0}
         prediction = self._ego.at_first()
-        joint = any(h.id in self.structure.triggers and not self._times.ego_decides(h) for h in self._heroes)
         even, tries = partial(even_motions, self._asked, self._times, prediction, self.witness), list[_Found]()
         meetings = meetings_of(self.scene)
         self._behind_ego = {hero.id: behind_ego(self.scene, hero.id) for hero in self._heroes}
-        placed = bool(meetings) and not meet_later(self.scene.program, self.structure) and even(0.0, 1.0)[1]
-        for joint_s in _JOINT_S if joint else (0.0,):
-            # Who comes slowly can still do either; where nothing tells when, a slow guess would just stay slow.
-            for pace in reversed(_PACES) if placed else _PACES:
-                guesses, _ = even(joint_s, pace)
-                if placed:
-                    self._meetings = in_order(meetings, self.scene, self.structure, guesses)
-                tries.append(self._planned_first(prediction, joint_s, guesses))
-                if tries[-1].does_all:
-                    break
-            if meetings and tries[-1].does_all:
+        placed = bool(meetings) and not meet_later(self.scene.program, self.structure) and even(1.0)[1]
+        for pace in _PACES:
+            guesses, _ = even(pace)
+            if placed:
+                self._meetings = in_order(meetings, self.scene, self.structure, guesses)
+            tries.append(self._planned_first(prediction, guesses))
+            if tries[-1].does_all:
                 break
         best = min(tries, key=lambda found: found.solution.cost)
         self._keep(best)
         if self._ego.take_sides(self.plan.profiles, self._asked.adapts_until):
-            best = self._planned_first(best.plan.profiles[EGO], 0.0, best.plan.profiles)
+            best = self._planned_first(best.plan.profiles[EGO], best.plan.profiles)
             self._keep(best)
         led = bool(self._ego.leaders(self.plan.profiles))
         if led:
@@ -141,7 +136,7 @@ class Planner(Standing):
             self._keep(best)
             self._meetings = in_order(meetings, self.scene, self.structure, best.plan.profiles)
         if not (led or placed) or self._meetings != best.meetings:
-            again = self._planned_first(best.plan.profiles[EGO], 0.0, best.plan.profiles)
+            again = self._planned_first(best.plan.profiles[EGO], best.plan.profiles)
             if self._meetings != best.meetings or again.solution.missed.by <= max(GOOD, best.solution.missed.by):
                 best = again
         best = self._turned(best)
@@ -157,13 +152,13 @@ class Planner(Standing):
         self.plan, self._moments_s, self._others = found.plan, found.moments_s, found.others
         self._meetings = found.meetings
 
-    def _planned_first(self, prediction: Profile, joint_s: float, guesses: Motions, trusted: float = 1.0) -> _Found:
+    def _planned_first(self, prediction: Profile, guesses: Motions, trusted: float = 1.0) -> _Found:
         """Return a first plan that is found from guesses: motions, or other plans with all their knots.
 
         Of a longest step `trusted` is the share by which it may be off from them: 1 is no limit, 0 leaves them as they
         are.
         """
-        problem = Problem(self._asked, self._first_situation(prediction, joint_s, guesses), needed(self._meetings))
+        problem = Problem(self._asked, self._first_situation(prediction, guesses), needed(self._meetings))
         if 0.0 < trusted < 1.0:
             problem.keep_near(trusted)
         return self._made(
@@ -178,7 +173,7 @@ class Planner(Standing):
                 break
             self._keep(best)
             self._meetings = tuple(m.turned() if {m.first, m.second} == pair else m for m in best.meetings)
-            trial = self._planned_first(best.plan.profiles[EGO], 0.0, best.plan.profiles)
+            trial = self._planned_first(best.plan.profiles[EGO], best.plan.profiles)
             if trial.solution.cost >= best.solution.cost:
                 break
             best = trial
@@ -191,7 +186,7 @@ class Planner(Standing):
             if best.solution.missed.by <= 0.5 * GOOD:
                 break
             self._keep(best)
-            trial = self._answered(self._planned_first(best.plan.profiles[EGO], 0.0, best.plan.profiles, trusted))
+            trial = self._answered(self._planned_first(best.plan.profiles[EGO], best.plan.profiles, trusted))
             if trial.solution.cost < best.solution.cost:
                 best = trial
             else:
@@ -201,7 +196,7 @@ class Planner(Standing):
     def _answered(self, found: _Found) -> _Found:
         """Return a first plan, and what it costs, with the ego that answers it: it was made with one that did not."""
         self._keep(found)
-        return self._planned_first(self._ego.foreseen(found.plan.profiles), 0.0, found.plan.profiles, trusted=0.0)
+        return self._planned_first(self._ego.foreseen(found.plan.profiles), found.plan.profiles, trusted=0.0)
 
     # -- one tick -----------------------------------------------------------------------------------------------------
     def tick(self, time_s: float) -> Replan:

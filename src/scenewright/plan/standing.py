@@ -16,6 +16,7 @@ from scenewright.motion.limits import Limits, Signs
 from scenewright.motion.profile import Profile, chain
 from scenewright.plan.asked import Asked
 from scenewright.plan.foresight import Foresight
+from scenewright.plan.guesses import JOINT_S
 from scenewright.plan.prediction import EgoSample, Predictor
 from scenewright.plan.situation import Drive, Situation
 from scenewright.plan.triggers import SHORTEST_LEAD_S, TriggerTimes
@@ -115,7 +116,7 @@ class Standing:
                     self.ego_knots_s[k] = min(passed_s.get(k, now_s), now_s)
 
     # -- what a plan starts from --------------------------------------------------------------------------------------
-    def _first_situation(self, prediction: Profile, joint_s: float, guesses: Mapping[int, Profile]) -> Situation:
+    def _first_situation(self, prediction: Profile, guesses: Mapping[int, Profile]) -> Situation:
         triggers = {
             hero.id: self._times.instant_s(hero, 0.0, prediction, None)
             for hero in self._heroes
@@ -129,7 +130,7 @@ class Standing:
         for hero in self._heroes:
             if hero.id not in triggers and (name := self.structure.trigger_knot(hero.id)) is not None:
                 instant = self._asked.knot(hero.id, name)
-                expected[instant] = planned[instant] = guesses[hero.id].knot_times_s.get(name, joint_s)
+                expected[instant] = planned[instant] = guesses[hero.id].knot_times_s.get(name, JOINT_S)
         for actor in self.scene.program.actors:
             now, told = 0.0, guesses[actor.id].knot_times_s if actor.id in guesses else {}
             before = self._asked.knot(actor.id, actor.sketch.knots[0])
