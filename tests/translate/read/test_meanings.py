@@ -43,8 +43,10 @@ def test_who_brakes_comes_to_a_standstill() -> None:
 
 
 def test_only_who_speeds_up_accelerates() -> None:
-    for said in ("goes", "sets off", "pulls out", "drives on", "drives through the conflict point"):
+    for said in ("goes", "drives on", "drives through the conflict point"):
         assert pieces(reading_of(f"{MEETS}the hero {said}.")) == "go go", said
+    for said in ("sets off", "pulls out"):
+        assert pieces(reading_of(f"{MEETS}the hero {said}.")) == "stop go", said
     for said in ("accelerates", "speeds up"):
         assert pieces(reading_of(f"{MEETS}the hero {said}.")) == "go acc", said
 

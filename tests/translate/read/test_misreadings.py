@@ -524,3 +524,53 @@ def test_where_a_way_turns_is_not_where_somebody_begins(way: str, where: str) ->
     found, told = (understand(f"The ego {each}. {rest}").program for each in (f"{way} {where}", way))
     assert [each.formula for each in found.constraints] == [each.formula for each in told.constraints]
     assert found.actors == told.actors
+
+
+OUT = "The ego turns left out of the driveway. A car drives west along the road. "
+LEADS = "The ego drives west. A van drives ahead of it in the same lane. "
+MERGES = "The ego drives west."
+AT_10 = "When the ego is 10 m before the stop line, "
+AT_20 = "When the ego is 20 m behind the van, "
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        f"{OUT}The car goes straight on past the intersection. {AT_10}the car brakes.",
+        f"{OUT}The car drives west at the intersection. {AT_10}the car brakes.",
+        f"{OUT}The car drives at 30 mph at the intersection. {AT_10}the car brakes.",
+        f"{OUT}{AT_10}the car drives at 5 m/s to the stop line and stops.",
+        f"{LEADS}{AT_20}the van accelerates at the stop line.",
+        f"{LEADS}{AT_20}the van brakes at the stop line.",
+        f"{LEADS}{AT_20}the van drives on at the stop line.",
+        f"{LEADS}The van drives at 5 m/s. {AT_20}the van sets off.",
+        f"{LEADS}{AT_20}the van brakes to 5 m/s. Then it pulls away.",
+        f"{LEADS}{AT_20}the van brakes to a stop. When it sets off, the ego is 5 m behind it.",
+        f"{LEADS}{AT_20}the van brakes to a stop. When the van drives on, the ego is at 5 m/s.",
+        f"{LEADS}{AT_20}the van brakes to a stop. Until it sets off, the gap is at least 5 m.",
+    ],
+)
+def test_what_may_mean_two_things_is_refused_or_asked(text: str) -> None:
+    assert reading_of(text).kind in ("refused", "asked")
+
+
+@pytest.mark.parametrize(
+    ("text", "plainer"),
+    [
+        *((f"{OUT}The car {to} the stop line. {AT_10}the car brakes.",
+           f"{OUT}The car drives on until it passes the stop line. {AT_10}the car brakes.")
+          for to in ("is headed to", "heads to", "follows the road to", "keeps its lane to", "goes straight on to")),
+        *((f"{OUT}{AT_10}the car {to} the stop line and stops.", f"{OUT}{AT_10}the car stops at the stop line.")
+          for to in ("goes to", "heads to", "comes to", "drives on to")),
+        *((f"{LEADS}{AT_20}the van {does}.", f"{LEADS}The van stands. {AT_20}the van drives on.")
+          for does in ("sets off", "starts moving", "pulls away")),
+        (f"{LEADS}{AT_10}the van sets off at the stop line.",
+         f"{LEADS}The van stands. {AT_10.removesuffix(', ')} and the van is at the stop line, the van drives on."),
+        (f"{LEADS}{AT_20}the van begins to brake at the stop line to 5 m/s.",
+         f"{LEADS}When the ego is 20 m behind the van and the van is at the stop line, the van brakes to 5 m/s."),
+        (f"{MERGES} A van turns right out of the driveway at the intersection. {AT_10}the van brakes.",
+         f"{MERGES} A van turns right out of the driveway. {AT_10}the van brakes."),
+    ],
+)  # fmt: skip
+def test_what_is_said_otherwise_is_read_as_what_it_means(text: str, plainer: str) -> None:
+    assert formulas(reading_of(text)) == formulas(reading_of(plainer))

@@ -81,6 +81,10 @@ def acts_of(story: Narrative, items: list[Clause], happens: bool) -> list[Clause
                 )
             found.pop()  # "pulls out, accelerating to 8 m/s"
             before = Clause(item.quote)
+        if item.deed == "stop" and "comes" in before.notes and before.deed == st.Verb.DRIVE and not item.measures:
+            if before.says_more_than("deed", "measures"):
+                story.refuse("it is not clear where it stops", item.quote, "say it: 'stops at ...'")
+            item.measures, before = found.pop().measures, Clause(item.quote)  # "drives to the stop line and stops"
         twice = (before.deed, item.deed) == (st.Verb.BRAKE, "stop")
         stands = before.deed in ("stop", st.Verb.STAND)  # who stands passes nothing: that comes after it
         if before.deed is not None and not stands and item.is_event and not before.measures:
@@ -140,8 +144,10 @@ def shares_of(story: Narrative, clause: Clause) -> tuple[list[st.Measure], list[
         if fast and "to" not in clause.flags and clause.deed != st.Verb.DRIVE:
             story.refuse("it is not clear when it is so fast")
         ends_there = rests or bool(clause.flags & {"to", "to there"}) or st.is_event(measure)
-        if clause.phase == "begins" and not rests and measure.quantity is st.Quantity.PLACE:
-            ends_there = st.is_event(measure)  # "begins to brake to 4 m/s 30 m before it"
+        starts = clause.phase == "begins" or "sets off" in clause.notes
+        at_it = st.is_event(measure) and not (rests or clause.notes & {"event", "comes"})  # "accelerates at the line"
+        if starts and not rests and measure.quantity is st.Quantity.PLACE and clause.notes.isdisjoint({"event"}):
+            ends_there = "comes" in clause.notes and st.is_event(measure)  # "begins to brake to 4 m/s 30 m before it"
         onwards = clause.deed in (st.Verb.DRIVE, st.Verb.SPEED_UP)
         ends_there |= onwards and (measure.opposite or measure.op == ">")  # "continues past it"
         timed = measure.quantity in (st.Quantity.HEADWAY, st.Quantity.COLLISION)  # so nobody stands
@@ -150,8 +156,12 @@ def shares_of(story: Narrative, clause: Clause) -> tuple[list[st.Measure], list[
         text, at = story.text, measure.quote or clause.quote
         aside = text[: at.start].rstrip().endswith(",") and "," in text[at.end : clause.quote.end]
         apart = measure.quantity in (st.Quantity.GAP, st.Quantity.FREE_SPACE) and "distance" in clause.notes
-        if rests and (aside or apart or "between" in clause.notes):
-            here = ["where it begins to brake", "where it stands"]  # "brakes, 8 m before it, to standstill"
+        is_open = at_it and not starts and "to" not in clause.flags and clause.deed in (st.Verb.DRIVE, *CHANGES)
+        if is_open or (rests and (aside or apart or "between" in clause.notes)):
+            # "brakes, 8 m before it, to standstill"
+            here = (
+                ["where this begins", "where this ends"] if is_open else ["where it begins to brake", "where it stands"]
+            )
             stays = story.ask(f"where {at.start}", f"What is '{at.text}'?", here, None, at) == here[0]
         (held if fast and "to" not in clause.flags else begins if stays else ends).append(measure)
     return begins, held, ends

@@ -173,12 +173,16 @@ def _stand_alone(taken: Taken, target: Target) -> None:
         raise taken.left_over(target.chunk)  # "brakes before the ego's turn": that is a time
     elif target.side == "at" and not acts and any(each.quantity is st.Quantity.PLACE for each in clause.measures):
         raise taken.left_over(target.chunk)  # "12 m before the stop line at the conflict point"
+    elif target.side == "at" and "turn" in clause.facts and not (acts or "wanted" in clause.notes):
+        if target.place != st.Place("intersection"):  # that is where a way turns
+            raise taken.left_over(target.chunk)
     elif target.side == "at" and target.at < taken.subject_at and not taken.states & {"pass", "reach"}:
         raise taken.left_over(target.chunk)  # "at the junction, the ego ...": it is what follows that is there
     elif target.place is not None and target.side in _BARE:
-        drives = taken.states & {"drives", "goes"} or (clause.deed, clause.subject) == (st.Verb.DRIVE, EGO)
-        clause.notes |= {"comes"} if target.side in ("to", "past") and drives else set()
-        if target.side == "to" and "drives" in taken.states and clause.deed is None and clause.subject != EGO:
+        drives = bool(clause.facts or taken.states & {"drives", "goes"})
+        drives |= (clause.deed, clause.subject) == (st.Verb.DRIVE, EGO)
+        clause.notes |= {"comes"} if target.side == "to" or (target.side in ("past", "at") and drives) else set()
+        if target.side == "to" and clause.deed is None and clause.subject != EGO:  # where it is headed it is not yet
             clause.deed = st.Verb.DRIVE
         taken.measure(target.chunk, st.Measure(IT, st.Quantity.PLACE, _BARE[target.side], None, target.place))
     else:

@@ -198,6 +198,8 @@ class Taken:
                 self.targets.append(Target(self.at, "at", chunk, _CONFLICT))
             case "deed" if clause.deed is None:
                 clause.deed, self.deed_at = value, self.at
+                rests = chunk.words.endswith((" off", " away", " out")) or chunk.words.startswith(("start", "resum"))
+                clause.notes |= {"sets off"} if rests and value == st.Verb.DRIVE else set()  # who does stands before
             case "phase" if clause.phase is None:
                 clause.phase = value
             case "ordinal" if all(each.kind != "ordinal" for each in self.chunks[: self.at]):
@@ -328,10 +330,6 @@ class Taken:
             self.at += 2 if (self.peek()[0], self.peek(2)[0]) == ("possessive", "thing") else 0
         elif side == "between" or (side == "of" and kind in PEOPLE and self.peek(-1)[0] == "quantity"):
             self._between(chunk)
-        elif side == "at" and kind == "place" and self.peek(-1)[0] == "turn":  # that is where a way turns
-            self.at += 1
-            if value != "intersection":
-                raise self.left_over(self.chunks[self.at])
         elif kind in ("place", *PEOPLE):
             self._target(side)
         elif (kind, value) == ("area", "driveway") and side in _SIDES and self.peek(-1)[0] == "amount":
@@ -343,11 +341,7 @@ class Taken:
             if amount is None or amount.dimension != "speed":
                 raise self.left_over(chunk)
             self.clause.begins.append(st.Measure(IT, st.Quantity.SPEED, "==", amount, quote=chunk.quote))
-        elif (
-            side == "to"
-            and (kind in ("amount", "bound") or value in ("speed", *st.BETWEEN))
-            and self.clause.deed is not None
-        ):
+        elif side == "to" and self.clause.deed and (kind in ("amount", "bound") or value in ("speed", *st.BETWEEN)):
             self.clause.flags.add("to there" if self._is_far() else "to")
             self.stands_at = max(self.stands_at, self.at)
         elif side == "to" and kind == "amount" and self.clause.phase is None and (not self.amounts or self._is_far()):

@@ -334,7 +334,8 @@ class Narrative(Cast):
         same = [each for each in self.doings if each.actor == clause.subject and each.verb == verb]
         if clause.phase == "finishes" or clause.ordinal:
             return same[clause.ordinal] if clause.ordinal < len(same) else None
-        begun = [each for each in same if each.begins != st.START] or same
+        begun = [each for each in same if each.begins != st.START]
+        begun = begun or [each for each in same if each.verb != st.Verb.DRIVE]  # nobody was told to drive on from then
         if len(begun) < 2 or clause.phase is not None:
             return next(iter(begun), None)
         ways = [f"for the {ORDINALS[same.index(each)]} time" for each in begun]

@@ -401,7 +401,12 @@ class _Sentence:
         led = self.led.words | ({"passes"} if verb == st.Verb.DRIVE and "event" in clause.notes else set())
         led |= {"then", "apart"} if drives_on or fronts else set()  # this says when it begins, not what it did before
         led |= {"then"} if orders and verb in CHANGES and "start" not in led else set()  # not from the start
+        if "sets off" in clause.notes and last_of(story, clause.subject) is None:
+            story.add(st.START, [st.standstill(clause.subject)])
+            agree(_measures(story.moments[st.START].conditions), clause.quote)
         doing = again or story.begin(clause.subject, verb, moment, led)
+        if "sets off" in clause.notes and not story.is_at_rest(doing):
+            story.refuse("it was not told that it stands", clause.quote, "say so, or that it drives on")
         doing.turns |= clause.deed == "turn"
         story.subject = clause.subject
         if begins:
