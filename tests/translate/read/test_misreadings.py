@@ -529,6 +529,8 @@ def test_where_a_way_turns_is_not_where_somebody_begins(way: str, where: str) ->
 OUT = "The ego turns left out of the driveway. A car drives west along the road. "
 LEADS = "The ego drives west. A van drives ahead of it in the same lane. "
 MERGES = "The ego drives west."
+TURNS = "The ego drives west. A van turns right out of the driveway. "
+TWO = "The ego turns left out of the driveway. A car drives west. A truck drives east. "
 AT_10 = "When the ego is 10 m before the stop line, "
 AT_20 = "When the ego is 20 m behind the van, "
 
@@ -548,6 +550,31 @@ AT_20 = "When the ego is 20 m behind the van, "
         f"{LEADS}{AT_20}the van brakes to a stop. When it sets off, the ego is 5 m behind it.",
         f"{LEADS}{AT_20}the van brakes to a stop. When the van drives on, the ego is at 5 m/s.",
         f"{LEADS}{AT_20}the van brakes to a stop. Until it sets off, the gap is at least 5 m.",
+        *(
+            f"{OUT}{AT_10}the car brakes to a stop. {then} the ego turns left."
+            for then in ("Then", "After that", "Later", "At that moment", "Meanwhile")
+        ),
+        f"{MERGES} A van turns right out of the driveway, then brakes to a stop.",
+        f"{OUT}The car stops at the stop line, then turns right.",
+        f"{OUT}{AT_10}the car brakes to 5 m/s. It turns right. Then it accelerates.",
+        *(f"{OUT}The car {way}, then stops." for way in ("drives west", "goes straight on", "comes from the east")),
+        f"{LEADS}After the turn, the van brakes to a stop.",
+        f"{LEADS}When the ego is 20 m behind the van after braking, the van accelerates.",
+        *(
+            f"{TWO}{AT_10}{which} brakes to a stop."
+            for which in ("the vehicle", "that vehicle", "the heavy vehicle", "one", "the first one", "the first")
+        ),
+        f"{MERGES} A red car drives west. A blue car drives east. {AT_10}the blue car brakes. The car waits for 2 s.",
+        *(
+            f"{TURNS}{AT_10}the van {does}."
+            for does in (
+                "leaves the driveway and stops",
+                "comes out of the driveway and accelerates to 5 m/s",
+                "stops in the driveway",
+                "waits in the driveway for 3 s",
+                "accelerates onto the road",
+            )
+        ),
     ],
 )
 def test_what_may_mean_two_things_is_refused_or_asked(text: str) -> None:
@@ -568,6 +595,16 @@ def test_what_may_mean_two_things_is_refused_or_asked(text: str) -> None:
          f"{LEADS}The van stands. {AT_10.removesuffix(', ')} and the van is at the stop line, the van drives on."),
         (f"{LEADS}{AT_20}the van begins to brake at the stop line to 5 m/s.",
          f"{LEADS}When the ego is 20 m behind the van and the van is at the stop line, the van brakes to 5 m/s."),
+        *((f"{OUT}{AT_10}the car brakes to a stop. Then it {way}.",
+           f"{OUT}{AT_10}the car brakes to a stop. Then it drives on.") for way in ("drives west", "goes straight on")),
+        (f"{OUT}{AT_10}the car brakes to a stop, waits 2 s and goes straight on.",
+         f"{OUT}{AT_10}the car brakes to a stop, waits 2 s and drives on."),
+        (f"{OUT}The car stands at the stop line. {AT_10}the car drives straight on and stops at the intersection.",
+         f"{OUT}The car stands at the stop line. {AT_10}the car drives on and stops at the intersection."),
+        (f"{TURNS}After turning right, the van brakes to a stop.",
+         f"{TURNS}When the van is at or past the end of the turn, the van brakes to a stop."),
+        (f"{OUT}The car brakes {AT_10.lower().removesuffix(', ')} and stands 5 m before the conflict point.",
+         f"{OUT}{AT_10}the car brakes to a stop 5 m before the conflict point."),
         (f"{MERGES} A van turns right out of the driveway at the intersection. {AT_10}the van brakes.",
          f"{MERGES} A van turns right out of the driveway. {AT_10}the van brakes."),
     ],

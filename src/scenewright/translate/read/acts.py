@@ -30,7 +30,7 @@ def acts_of(story: Narrative, items: list[Clause], happens: bool) -> list[Clause
             lasting(item)
         if (item.subject, item.deed) == (EGO, st.Verb.DRIVE) and item.says_more_than("deed") and not happens:
             item.deed = None  # nobody tells it to: "the ego proceeds west"
-    acts = any(each.deed is not None for each in items)
+    acts, ways = any(each.deed is not None for each in items), set[int | None]()
     for item in items:
         story.courtesies += [(item.subject, each, item.quote) for each in item.flags & COURTESIES]
         refrains = item.flags & REFRAINS
@@ -43,7 +43,18 @@ def acts_of(story: Narrative, items: list[Clause], happens: bool) -> list[Clause
         goes_on = item.times and any(doing.actor == item.subject for doing in story.doings)
         meant = "wanted" in item.notes or ("relative" in item.notes and acts)
         turns = item.facts.get("turn", "straight") != "straight"
-        if is_hero and turns and not meant:
+        is_way = item.deed is None and bool(item.facts) and not (meant or item.says_more_than("facts"))
+        own, then = any(each.deed and each.subject == item.subject for each in found), "then" in item.notes
+        leaves = is_hero and is_way and "origin" in item.notes  # "when ..., the van leaves the driveway"
+        inside = "area" in item.notes and (happens or own or item.deed != st.Verb.STAND)  # "stops in the driveway"
+        if leaves or inside or (is_way and not happens and (own or then)) or (then and item.subject in ways):
+            story.refuse("it is not clear when or where this is done", item.quote, "say it by a place, as a deed")
+        bare = "turn" not in item.facts and "drives" not in item.notes  # "the car, westbound, brakes"
+        aside = acts and not (own or then) and (bare or "ing" in [each[-3:] for each in item.quote.text.split()])
+        if is_hero and is_way and not (turns or aside):
+            story.tell(item)
+            item.deed = st.Verb.DRIVE  # "then it goes straight on"
+        elif is_hero and turns and not meant:
             story.tell_way(item.subject or EGO, item.facts, turns_then=True)
             item.facts, item.deed = {}, "turn"
         elif is_hero and not acts and (ends := _comes_to(item)):
@@ -71,6 +82,7 @@ def acts_of(story: Narrative, items: list[Clause], happens: bool) -> list[Clause
             item.flags -= {"first"}
             story.afterwards.append(partial(story.ego_first, item.quote))  # when all that is done is told
         if acts:
+            ways |= {item.subject} if is_way and item.facts else set()
             story.tell(item)
         before = found[-1] if found and found[-1].subject == item.subject else Clause(item.quote)
         beside = item.quote.text.split()[0].endswith("ing") and "then" not in item.notes
@@ -85,6 +97,9 @@ def acts_of(story: Narrative, items: list[Clause], happens: bool) -> list[Clause
             if before.says_more_than("deed", "measures"):
                 story.refuse("it is not clear where it stops", item.quote, "say it: 'stops at ...'")
             item.measures, before = found.pop().measures, Clause(item.quote)  # "drives to the stop line and stops"
+        rest, brakes = st.standstill(item.subject or EGO), before.deed == st.Verb.BRAKE
+        if brakes and item.deed is None and rest in item.measures:  # "brakes and stands 5 m before"
+            item.deed, item.measures = "stop", [each for each in item.measures if each != rest]
         twice = (before.deed, item.deed) == (st.Verb.BRAKE, "stop")
         stands = before.deed in ("stop", st.Verb.STAND)  # who stands passes nothing: that comes after it
         if before.deed is not None and not stands and item.is_event and not before.measures:

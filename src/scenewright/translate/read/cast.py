@@ -178,7 +178,8 @@ class Cast:
         fitting = [each for each in self.heroes if self._fits(each, chunk, words)]
         if not chunk.is_new and any(each.kind == "other" for each in chunk.traits):  # not who was spoken of last
             fitting = [each for each in fitting if each.id != self.subject] or fitting
-        fitting = [each for each in fitting if each.name == chunk.value] or fitting
+        same = [each for each in fitting if each.quote is not None and each.quote.text.lower() == chunk.text.lower()]
+        fitting = [each for each in same if not self.known_by[each.id]] or fitting  # "the car" beside "a red car"
         fitting = [each for each in fitting if words and words <= self.known_by[each.id]] or fitting
         another = chunk.is_new and (bool(words & _FURTHER) or any(each.kind == "other" for each in chunk.traits))
         some: list[int | None] = [] if another else [each.id for each in fitting]
@@ -196,7 +197,10 @@ class Cast:
         kind = "car" if chunk.value == "hero" else chunk.value
         said = re.findall(r"\w+", self.text[: min(each.start for each in (chunk, *chunk.traits))].lower())[-1:]
         is_only = len(self.heroes) == 1 and {*said} & {"the", "this", "that", "its"}
-        general = chunk.value == "car" and (is_only or any(each.kind == "other" for each in chunk.traits))
+        any_kind = chunk.words in ("vehicle", "driver", "motorist") or any(
+            each.kind == "other" for each in chunk.traits
+        )
+        general = chunk.value == "car" and (is_only or any_kind)
         named = chunk.value in (actor.name, *self.known_by.get(actor.id, ()))
         named |= actor.kind == kind and chunk.value != "hero"
         strange = words - self.known_by.get(actor.id, set())

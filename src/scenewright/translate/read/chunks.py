@@ -258,10 +258,12 @@ def _described(chunks: list[Chunk]) -> list[Chunk]:
     acts = any(each.kind == "deed" for each in found)
     if acts and found[0].text.lower() == "as" and any(each.kind == "actor" for each in found[1:3]):
         found[0] = replace(found[0], kind="link", value="when")  # "as the ego turns left, ..."
-    another = {each for each in found if (each.kind, each.value) == ("det", "a") and len(each.text) > 3}
+    another = {each for each in found if (each.kind, each.value) == ("det", "a") and len(each.text) > 2}
     for at, (before, each) in enumerate(pairwise(found), 1):
         if each.words == "there" and before.kind in ("deed", "event", "standstill", "state"):
             found[at] = replace(each, kind="there")  # "stops there": where that is, nothing here knows
+        if (before.kind, each.kind) == ("det", "quality"):  # "the first brakes": the first of whom, nothing here knows
+            found[at] = replace(each, kind="share")
     for at, each in enumerate(found):
         if each.kind == "or bound" and found[at - 1].kind == "amount":  # "5 m/s or more"
             found[at - 1 : at + 1] = [replace(each, kind="bound"), found[at - 1]]

@@ -451,7 +451,7 @@ class Taken:
         elif chunk.kind == "area":
             self.area(chunk)
         elif chunk.kind == "origin" and self.road("from"):
-            pass
+            self.clause.notes.add("origin")
         elif chunk.kind == "origin" or (chunk.kind == "then_headed" and self.peek()[0] != "heading"):
             raise self.left_over(chunk)
         elif chunk.text.lower().startswith("to ") and "origin" not in facts:
@@ -489,6 +489,7 @@ class Taken:
     def area(self, chunk: Chunk, side: str = "") -> None:
         """Take a road, from which or into which somebody drives."""
         turned = self.clause.facts.get("turn", "straight") != "straight" and side != "from"
+        self.clause.notes |= {"area"} if self.clause.deed not in (None, st.Verb.DRIVE) else set()  # "stops in it"
         self.fact("destination" if side == "into" or turned else "origin", chunk)
 
     def fact(self, name: str, chunk: Chunk) -> None:

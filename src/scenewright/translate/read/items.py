@@ -214,7 +214,8 @@ def tail_of(chunks: list[Chunk]) -> tuple[list[Chunk], list[Chunk]]:
         fast = chunk.kind == "side" and dimension == "speed"
         if fast and chunk.value == "at" and all(each.kind not in ("state", "deed", "quantity") for each in chunks[:at]):
             raise UnknownWordsError("it is not clear who is so fast", found=following.text, fix="say it with its verb")
-        if how or (fast and chunk.value == "to") or _does_more(chunk, following):
+        rests = (chunk.value, following.value) == ("and", "stands")
+        if how or rests or (fast and chunk.value == "to") or _does_more(chunk, following):
             return chunks[:at], chunks[at:]
     return chunks, []
 

@@ -216,9 +216,9 @@ def is_of_who_acts(story: Narrative, main: Sequence[Chunk], tail: Sequence[Chunk
 
     Who brakes may well stop. Who comes to a stop passes nothing then, so that is of another, or of another time.
     """
-    does = next((each for each in tail if each.kind in ("deed", "event", "standstill")), None)
+    does = next((each for each in tail if each.kind in ("deed", "event", "standstill") or each.value == "stands"), None)
     brakes = any(each.value == st.Verb.BRAKE for each in main)
-    if does is None or (brakes and does.value in ("stop", "standstill")):
+    if does is None or (brakes and does.value in ("stop", "standstill", "stands")):
         return True
     stops = any(each.kind == "standstill" or each.value == "stop" for each in main)
     ways = ["of who acts", "of whom the moment is"]

@@ -285,12 +285,15 @@ class _Sentence:
         story, words = self.story, self.led.words
         for item in items:
             sides = {each.kind for each in item.relations} & {"ahead", "behind"}
-            if sides and words & {"then", "later", "same time", "meanwhile"}:
-                self._when_unclear()  # on whose side somebody is without a distance is told of the start alone
+            acts = any(doing.actor == item.subject for doing in story.doings)
+            turns = acts and [*item.facts] == ["turn"] and item.facts["turn"] != "straight"
+            if turns or (
+                (sides or (item.facts and story.doings)) and words & {"then", "later", "same time", "meanwhile"}
+            ):
+                self._when_unclear()  # which way one goes, and on whose side it is, is told of the start alone
             story.tell(item)
             if item.subject is not None:
                 story.subject = None if "both" in item.notes else item.subject
-                acts = any(doing.actor == item.subject for doing in story.doings)
                 if "kept" in item.flags and acts:  # "brakes and keeps its speed"
                     story.refuse("it is not clear when a speed is kept", item.quote, "say it before what is done")
                 story.kept += [(item.subject, item.quote)] * ("kept" in item.flags)
@@ -351,6 +354,9 @@ class _Sentence:
         story.awaits = None if when is None and self.pending is not None else story.awaits
         again = None if when is not None or self.pending is not None or self.led.words else told_before(story, clause)
         begins, held, ends = shares_of(story, clause)
+        own = last_of(story, clause.subject)
+        if self.led.own.startswith("turn") and (own is None or not own.turns):
+            begins.append(replace(self._at(clause.subject, "turn_end"), op=">="))
         is_tied = bool(begins) or any(each.link in ORDERS for each in rest)
         moment: int | None
         pending = self.pending if when is None else self._moment(when)
@@ -359,6 +365,8 @@ class _Sentence:
                 story.refuse("it is not clear what is so much later", clause.quote)
             self.led.delay = delay
         if again is not None or (self.led.delay is None and pending is not None):
+            if self.led.own:  # "when the ego is 20 m behind it after braking, ..."
+                story.refuse("it is not clear after what this is done", clause.quote)
             moment = pending
         else:
             moment = moment_led_to(story, clause, self.led, pending, is_tied)
