@@ -566,6 +566,33 @@ AT_20 = "When the ego is 20 m behind the van, "
         ),
         f"{MERGES} A red car drives west. A blue car drives east. {AT_10}the blue car brakes. The car waits for 2 s.",
         *(
+            f"{OUT}Trigger: {when}. Action: the car brakes to a stop."
+            for when in ("the ego is 10 m before the stop line, 5 m/s", "ego at 5 m/s, 10 m before the stop line")
+        ),
+        *(
+            f"{LEADS}{AT_20}the van brakes to a stop. When stopped, {who} is 10 m from the intersection."
+            for who in ("the van", "it")
+        ),
+        f"{MERGES} A van approaches the driveway. {AT_10}the van brakes.",
+        f"{MERGES} A van drives in the left lane. {AT_10}the van brakes.",
+        f"{LEADS}The van drives off the road. {AT_20}the van brakes.",
+        f"{OUT}{AT_10}the car brakes to a stop. The ego passes the conflict point directly after the car stops.",
+        *(f"{OUT}{AT_10}the car stops {how} behind the stop line." for how in ("just", "right", "directly")),
+        f"{LEADS}{AT_20}the van brakes to 5 m/s having passed the intersection.",
+        f"{MERGES} A van is 20 m in front of it and a car 20 m behind it. {AT_10}the van brakes.",
+        *(
+            f"{OUT}{AT_10}the car {does}."
+            for does in (
+                "brakes to turn right",
+                "is first at the conflict point",
+                "accelerates to 9 m/s there",
+                "goes first, keeping its speed",
+                "keeps its speed and goes first",
+            )
+        ),
+        f"{OUT}{AT_10}only the car brakes.",
+        *(f"{LEADS}When the ego is 20 m behind the van and {so}, the van brakes." for so in ("moving", "still moving")),
+        *(
             f"{TURNS}{AT_10}the van {does}."
             for does in (
                 "leaves the driveway and stops",
@@ -611,3 +638,34 @@ def test_what_may_mean_two_things_is_refused_or_asked(text: str) -> None:
 )  # fmt: skip
 def test_what_is_said_otherwise_is_read_as_what_it_means(text: str, plainer: str) -> None:
     assert formulas(reading_of(text)) == formulas(reading_of(plainer))
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        f"{OUT}{AT_10}it is 30 m from the intersection. The car brakes.",
+        f"{OUT}{AT_10}its speed is 5 m/s and the car brakes to a stop.",
+        f"{OUT}{AT_10}the car brakes. When the ego turns, its speed is 5 m/s.",
+        f"{LEADS}{AT_20}the van brakes to a stop. When the ego passes the intersection, it is 20 m ahead.",
+        f"{LEADS}A car drives behind the ego in the same lane. When it is 20 m ahead of the ego, the van brakes.",
+    ],
+)
+def test_whose_a_state_behind_the_moment_of_another_is_is_asked(text: str) -> None:
+    assert "Who is 'it'?" in reading_of(text).told
+
+
+@pytest.mark.parametrize(
+    "does",
+    ["keeps its speed and does not yield", "accelerates without yielding", "brakes to 5 m/s and yields to the ego"],
+)
+def test_a_courtesy_that_nothing_is_held_of_is_told(does: str) -> None:
+    told = read(f"{OUT}{AT_10}the car {does}.").assumptions
+    assert any("asks for nothing of who passes first" in each for each in told)
+
+
+def test_a_courtesy_of_who_stands_or_passes_first_is_held() -> None:
+    for does in (
+        "brakes to a stop, yielding to the ego",
+        "does not yield and passes the conflict point before the ego",
+    ):
+        assert all("asks for" not in each for each in read(f"{OUT}{AT_10}the car {does}.").assumptions), does

@@ -43,12 +43,15 @@ def acts_of(story: Narrative, items: list[Clause], happens: bool) -> list[Clause
         goes_on = item.times and any(doing.actor == item.subject for doing in story.doings)
         meant = "wanted" in item.notes or ("relative" in item.notes and acts)
         turns = item.facts.get("turn", "straight") != "straight"
+        before = found[-1] if found and found[-1].subject == item.subject else Clause(item.quote)
         is_way = item.deed is None and bool(item.facts) and not (meant or item.says_more_than("facts"))
         own, then = any(each.deed and each.subject == item.subject for each in found), "then" in item.notes
         leaves = is_hero and is_way and "origin" in item.notes  # "when ..., the van leaves the driveway"
         inside = "area" in item.notes and (happens or own or item.deed != st.Verb.STAND)  # "stops in the driveway"
-        if leaves or inside or (is_way and not happens and (own or then)) or (then and item.subject in ways):
-            story.refuse("it is not clear when or where this is done", item.quote, "say it by a place, as a deed")
+        both = "kept" in item.flags or {"kept", "first"} <= item.flags | before.flags  # "goes first, keeping its speed"
+        both &= item.deed is None and before.deed in ("go first", st.Verb.DRIVE)
+        if leaves or inside or both or (is_way and not happens and (own or then)) or (then and item.subject in ways):
+            story.refuse("it is not clear when or where this is done", item.quote, "say it as a deed of its own")
         bare = "turn" not in item.facts and "drives" not in item.notes  # "the car, westbound, brakes"
         aside = acts and not (own or then) and (bare or "ing" in [each[-3:] for each in item.quote.text.split()])
         if is_hero and is_way and not (turns or aside):
@@ -84,19 +87,17 @@ def acts_of(story: Narrative, items: list[Clause], happens: bool) -> list[Clause
         if acts:
             ways |= {item.subject} if is_way and item.facts else set()
             story.tell(item)
-        before = found[-1] if found and found[-1].subject == item.subject else Clause(item.quote)
         beside = item.quote.text.split()[0].endswith("ing") and "then" not in item.notes
         if item.deed in CHANGES and beside and before.deed is not None:
             if before.deed != st.Verb.DRIVE or before.says_more_than("deed"):  # "turns left, accelerating at 2 m/s^2"
-                story.refuse(
-                    "it is not clear whether this is done then or meanwhile", item.quote, "say 'then', or 'while'"
-                )
+                told = "it is not clear whether this is done then or meanwhile"
+                story.refuse(told, item.quote, "say 'then', or 'while'")
             found.pop()  # "pulls out, accelerating to 8 m/s"
             before = Clause(item.quote)
-        if item.deed == "stop" and "comes" in before.notes and before.deed == st.Verb.DRIVE and not item.measures:
+        if item.deed == "stop" and "comes" in before.notes and not item.measures:  # "drives to the line and stops"
             if before.says_more_than("deed", "measures"):
                 story.refuse("it is not clear where it stops", item.quote, "say it: 'stops at ...'")
-            item.measures, before = found.pop().measures, Clause(item.quote)  # "drives to the stop line and stops"
+            item.measures, before = found.pop().measures, Clause(item.quote)
         rest, brakes = st.standstill(item.subject or EGO), before.deed == st.Verb.BRAKE
         if brakes and item.deed is None and rest in item.measures:  # "brakes and stands 5 m before"
             item.deed, item.measures = "stop", [each for each in item.measures if each != rest]
@@ -161,22 +162,19 @@ def shares_of(story: Narrative, clause: Clause) -> tuple[list[st.Measure], list[
         ends_there = rests or bool(clause.flags & {"to", "to there"}) or st.is_event(measure)
         starts = clause.phase == "begins" or "sets off" in clause.notes
         at_it = st.is_event(measure) and not (rests or clause.notes & {"event", "comes"})  # "accelerates at the line"
-        if starts and not rests and measure.quantity is st.Quantity.PLACE and clause.notes.isdisjoint({"event"}):
+        if starts and not rests and measure.quantity is st.Quantity.PLACE and "event" not in clause.notes:
             ends_there = "comes" in clause.notes and st.is_event(measure)  # "begins to brake to 4 m/s 30 m before it"
         onwards = clause.deed in (st.Verb.DRIVE, st.Verb.SPEED_UP)
         ends_there |= onwards and (measure.opposite or measure.op == ">")  # "continues past it"
-        timed = measure.quantity in (st.Quantity.HEADWAY, st.Quantity.COLLISION)  # so nobody stands
-        timed &= "to there" not in clause.flags
+        timed = measure.quantity in (st.Quantity.HEADWAY, st.Quantity.COLLISION) and "to there" not in clause.flags
         stays = clause.deed == st.Verb.STAND or timed or not (ends_there or fast)
         text, at = story.text, measure.quote or clause.quote
         aside = text[: at.start].rstrip().endswith(",") and "," in text[at.end : clause.quote.end]
         apart = measure.quantity in (st.Quantity.GAP, st.Quantity.FREE_SPACE) and "distance" in clause.notes
         is_open = at_it and not starts and "to" not in clause.flags and clause.deed in (st.Verb.DRIVE, *CHANGES)
         if is_open or (rests and (aside or apart or "between" in clause.notes)):
-            # "brakes, 8 m before it, to standstill"
-            here = (
-                ["where this begins", "where this ends"] if is_open else ["where it begins to brake", "where it stands"]
-            )
+            brakes = ["where it begins to brake", "where it stands"]  # "brakes, 8 m before it, to standstill"
+            here = ["where this begins", "where this ends"] if is_open else brakes
             stays = story.ask(f"where {at.start}", f"What is '{at.text}'?", here, None, at) == here[0]
         (held if fast and "to" not in clause.flags else begins if stays else ends).append(measure)
     return begins, held, ends

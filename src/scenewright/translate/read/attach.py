@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
+from itertools import pairwise
 
 from scenewright.errors import UnknownWordsError
 from scenewright.program.types import EGO
@@ -48,10 +49,12 @@ def _attach(taken: Taken) -> None:
                 raise taken.left_over(target.chunk)  # nobody passes a stop line of another's way
         elif target.place is None and target.other is None:
             target.other = taken.people.whom(target.chunk.quote, clause.subject)
+            taken.people.mentioned.insert(0, target.other)
     if (clause.deed, clause.subject) == (st.Verb.STAND, EGO) and not clause.says_more_than("deed"):
         clause.deed, taken.states = None, taken.states | {"stands"}  # nobody tells the ego to: "the ego waits"
-    if "in" in clause.times and clause.deed != "stop" and not clause.flags & {"to", "standstill"}:
-        raise taken.left_over(last)  # "brakes within 4 s": until then, or for so long?
+    to_turn = clause.deed and any((one.value, two.kind) == ("to", "turn") for one, two in pairwise(taken.chunks))
+    if to_turn or ("in" in clause.times and clause.deed != "stop" and not clause.flags & {"to", "standstill"}):
+        raise taken.left_over(last)  # "brakes to turn right"; "brakes within 4 s": until then, or for so long?
     if "stands" in taken.states:
         taken.measure(last, st.standstill(IT))
     for name in sorted(taken.states & {"turn_start", "turn_end"}):
@@ -179,8 +182,9 @@ def _stand_alone(taken: Taken, target: Target) -> None:
     elif target.side == "at" and target.at < taken.subject_at and not taken.states & {"pass", "reach"}:
         raise taken.left_over(target.chunk)  # "at the junction, the ego ...": it is what follows that is there
     elif target.place is not None and target.side in _BARE:
-        drives = bool(clause.facts or taken.states & {"drives", "goes"})
-        drives |= (clause.deed, clause.subject) == (st.Verb.DRIVE, EGO)
+        drives = (
+            clause.facts or taken.states & {"drives", "goes"} or (clause.deed, clause.subject) == (st.Verb.DRIVE, EGO)
+        )
         clause.notes |= {"comes"} if target.side == "to" or (target.side in ("past", "at") and drives) else set()
         if target.side == "to" and clause.deed is None and clause.subject != EGO:  # where it is headed it is not yet
             clause.deed = st.Verb.DRIVE

@@ -21,6 +21,7 @@ _MARKS = {each.lower() for each in MARKS}
 _FURTHER = {"second", "third", "fourth", *_MARKS - {"1", "a"}}
 NEW, BEHIND = "somebody new", "Who drives behind?"
 FIRST = 1  # the number of the first hero, with whom the ego's conflict point is where nothing says so
+_ANY_KIND = ("vehicle", "driver", "motorist")
 ASIDE, CAR = "set it aside", "a car of that name"
 
 
@@ -43,11 +44,11 @@ class Cast:
     # Who is behind whom, by words that do not say it: what is told elsewhere was taken.
     inferred: dict[st.Quote, tuple[int, int]] = field(default_factory=dict)
 
-    def who(self, chunk: Chunk, acts: bool = False) -> int:
-        """Return the number of whoever is mentioned; somebody new is added. Who `acts` is not the ego."""
+    def who(self, chunk: Chunk, acts: bool = False, is_either: bool = False) -> int:
+        """Return the number of whoever is mentioned, or is new. Who `acts` is not the ego; "it" may be `is_either`."""
         if chunk.kind == "relative" and self.mentioned:
             return self.mentioned[-1]
-        actor = self._it(chunk, acts) if chunk.kind in ("pronoun", "relative") else self._named(chunk)
+        actor = self._it(chunk, acts, is_either) if chunk.kind in ("pronoun", "relative") else self._named(chunk)
         self.mentioned.append(actor)
         for trait in chunk.traits:
             if trait.kind == "relation":
@@ -56,9 +57,14 @@ class Cast:
                 self.tell_way(actor, {trait.kind: trait.value})
         return actor
 
+    def either(self, subject: int | None) -> bool:
+        """Whether "it" may be of whom the moment in front is, or of the `subject` that was spoken of before that."""
+        return bool(self.mentioned) and subject not in (None, self.mentioned[-1])
+
     def settled(self, chunks: list[Chunk], following: Sequence[Chunk]) -> list[Chunk]:
         """Return a fronted clause with who its "it" is: whom the last sentence was of, or who is named next."""
-        if self.subject is None or [each.value for each in chunks[:1]] != ["it"]:
+        words = [each.value for each in chunks]
+        if self.subject is None or words[:1] != ["it"] or "the start" in words:  # "it is 5 s after the start"
             return chunks
         known = [each for each in following[:1] if each.kind in ("actor", "name") and not each.is_new]
         people: list[int | None] = [*dict.fromkeys([*(self._named(each) for each in known), self.subject])]
@@ -151,11 +157,11 @@ class Cast:
         """What is so together, as far as it was told: nothing that people alone would know."""
         return []
 
-    def _it(self, chunk: Chunk, acts: bool) -> int:
+    def _it(self, chunk: Chunk, acts: bool, is_either: bool) -> int:
         if self.doer is not None:
             return self.doer
         named, last = list(dict.fromkeys(self.mentioned)), [] if self.subject is None else [self.subject]
-        found = named or last
+        found = [*(each for each in last if each not in named), *named] if is_either else named or last
         if acts and EGO in found:  # which is driven by the policy under test
             found = [each for each in named if each != EGO] or [each.id for each in self.heroes] or found
         if not found:
@@ -196,11 +202,8 @@ class Cast:
         """Whether a mention may mean somebody that is known: of its kind, or "the car" where there is only one."""
         kind = "car" if chunk.value == "hero" else chunk.value
         said = re.findall(r"\w+", self.text[: min(each.start for each in (chunk, *chunk.traits))].lower())[-1:]
-        is_only = len(self.heroes) == 1 and {*said} & {"the", "this", "that", "its"}
-        any_kind = chunk.words in ("vehicle", "driver", "motorist") or any(
-            each.kind == "other" for each in chunk.traits
-        )
-        general = chunk.value == "car" and (is_only or any_kind)
+        is_only = (len(self.heroes) == 1 and {*said} & {"the", "this", "that", "its"}) or chunk.words in _ANY_KIND
+        general = chunk.value == "car" and (is_only or any(each.kind == "other" for each in chunk.traits))
         named = chunk.value in (actor.name, *self.known_by.get(actor.id, ()))
         named |= actor.kind == kind and chunk.value != "hero"
         strange = words - self.known_by.get(actor.id, set())

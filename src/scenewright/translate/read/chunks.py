@@ -260,8 +260,12 @@ def _described(chunks: list[Chunk]) -> list[Chunk]:
         found[0] = replace(found[0], kind="link", value="when")  # "as the ego turns left, ..."
     another = {each for each in found if (each.kind, each.value) == ("det", "a") and len(each.text) > 2}
     for at, (before, each) in enumerate(pairwise(found), 1):
-        if each.words == "there" and before.kind in ("deed", "event", "standstill", "state"):
+        if each.words == "there" and before.kind in ("deed", "event", "standstill", "state", "amount"):
             found[at] = replace(each, kind="there")  # "stops there": where that is, nothing here knows
+        meant = (before.words, each.kind) in (("having", "deed"), ("having", "event"), ("left", "area"))
+        how = before.kind == "harmless" and each.kind == "side" and any(e.kind == "place" for e in found[at : at + 3])
+        if meant or (how and each.value == "behind") or (before.kind, each.value) == ("harmless", "after"):
+            found[at - 1] = replace(before, kind="share")  # "having passed it", "left lane", "directly after it stops"
         if (before.kind, each.kind) == ("det", "quality"):  # "the first brakes": the first of whom, nothing here knows
             found[at] = replace(each, kind="share")
     for at, each in enumerate(found):

@@ -33,9 +33,8 @@ _AFTER = {  # what may stand behind a side that says no more than that it belong
     "for": _OF_AMOUNTS, "in": _OF_AMOUNTS, "with": (*_OF_AMOUNTS, "turn", "deed"), "by": ("turn", "deed"),
 }  # fmt: skip
 _DIMENSIONS: dict[str, Dimension] = {
-    "speed": "speed", "gap": "length", "bumper-to-bumper gap": "length", "headway": "time",
-    "time to collision": "time", "time to arrival": "time",
-    "rate": "acceleration", "acceleration": "acceleration", "deceleration": "acceleration",
+    "speed": "speed", "gap": "length", "bumper-to-bumper gap": "length", "headway": "time", "time to collision": "time",
+    "time to arrival": "time", "rate": "acceleration", "acceleration": "acceleration", "deceleration": "acceleration",
 }  # fmt: skip
 _AT, _FOLLOWS = ("side", "at"), ("follow", "trail", "tail", "lead", "drive", "drove")
 _INITIAL = (("at", "link", "start"), ("with", "link", "start"))  # "with an initial speed of"
@@ -100,7 +99,8 @@ def agree(measures: Iterable[st.Measure], quote: st.Quote) -> None:
         same = known.setdefault((each.actor, each.quantity, each.place, each.other), [])
         for other in same:
             if each != other and {is_upper(each), is_upper(other)} != {True, False}:
-                both = " and ".join(_amount_of(one) for one in (other, each))
+                both = " and ".join(amount(one.amount) if one.amount else f"{one.quote and one.quote.text}"
+                                    for one in (other, each))  # fmt: skip
                 fix = "say one of them, or at least how much and at most how much"
                 raise UnknownWordsError(f"two amounts for one thing: {both}", found=quote.text, fix=fix)
         same.append(each)
@@ -110,12 +110,6 @@ def is_upper(measure: st.Measure) -> bool | None:
     """Whether a measure bounds its quantity from above, or from below; None where it is exact."""
     down = counted_down(measure.quantity, measure.opposite) and measure.amount is not None
     return None if measure.op == "==" else (measure.op in ("<", "<=")) is not down
-
-
-def _amount_of(measure: st.Measure) -> str:
-    if measure.amount is not None:
-        return amount(measure.amount)
-    return measure.quote.text if measure.quote is not None else "none"
 
 
 @dataclass(slots=True)
@@ -159,6 +153,12 @@ class Taken:
         """Take the chunk at `at`, and those behind it that belong to it."""
         clause, value, reaches = self.clause, chunk.value, bool(self.states & {"pass", "reach"})
         match chunk.kind:
+            case "pronoun" if (
+                (value, self.peek()[0]) == ("its", "quantity")
+                and clause.subject is None
+                and self.people.either(self.subject)
+            ):
+                clause.subject = self.people.who(chunk, is_either=True)
             case "pronoun" if value == "it" and reaches:
                 self.targets.append(Target(self.at, "at", chunk, self.people.where(chunk)))
             case _ if self._says_no_more(chunk):
@@ -170,11 +170,12 @@ class Taken:
             case "actor" | "pronoun" | "name" | "relative" if clause.subject is None:
                 kinds = {each.kind for each in self.chunks}
                 acts = "deed" in kinds or ("turn" in kinds and "mood" not in kinds)
-                clause.subject, self.subject_at = self.people.who(chunk, acts), self.at
+                either = not acts and self.people.either(self.subject)
+                clause.subject, self.subject_at = self.people.who(chunk, acts, either), self.at
                 clause.notes |= {"relative"} if chunk.kind == "relative" else set()
             case "quality" if chunk.text.lower() == "first" and self.peek()[0] in ("deed", "phase"):
                 pass  # what it does first is told first
-            case "quality" if self.peek(-1)[0] != "be":  # "the truck is red", not "5 m heavy"
+            case "quality" if self.peek(-1)[0] != "be" or chunk.words == "first":  # "the truck is red", not "5 m heavy"
                 raise self.left_over(chunk)
             case "be" | "possessive" | "quality":
                 clause.notes |= {value} & {"has", "stays"}
@@ -240,11 +241,6 @@ class Taken:
         changes = following.value in (st.Verb.BRAKE, st.Verb.SPEED_UP)
         return value == "is" and following.kind == "deed" and changes and following.words.split()[0].endswith("ing")
 
-    @property
-    def moves(self) -> bool:
-        """Whether its verb tells where it drives beside another: "follows the hero"."""
-        return any(each.kind == "side" and each.text.lower().startswith(_FOLLOWS) for each in self.chunks)
-
     def _is_of_another(self, back: int) -> bool:
         """Whether what stands so far back is somebody that the clause is not about."""
         at = self.at - back
@@ -287,7 +283,8 @@ class Taken:
 
     def _amount(self, chunk: Chunk) -> None:
         fast = chunk.amount is not None and chunk.amount.dimension == "speed" and self.peek(-1) == ("side", "at")
-        moves = self.clause.deed is not None or "drives" in self.states or self.moves
+        moves = self.clause.deed is not None or "drives" in self.states
+        moves |= any(each.kind == "side" and each.words.startswith(_FOLLOWS) for each in self.chunks)  # "follows it"
         if fast and self._is_of_another(2) and self.clause.subject is not None and not moves:
             raise self.left_over(chunk)  # "slower than the ego at 15 m/s"
         turns = any(each.kind == "turn" and each.value != "straight" for each in self.chunks[: self.at])
@@ -487,7 +484,10 @@ class Taken:
         self.fact("destination_heading" if later and not back else "heading", chunk)
 
     def area(self, chunk: Chunk, side: str = "") -> None:
-        """Take a road, from which or into which somebody drives."""
+        """Take a road, from which or into which somebody drives; who approaches one does not come from there."""
+        before = self.chunks[self.at - 1].words if self.at else ""
+        if (before.endswith("off") and "turn" not in self.clause.facts) or (not side and before[:8] == "approach"):
+            raise self.left_over(chunk)
         turned = self.clause.facts.get("turn", "straight") != "straight" and side != "from"
         self.clause.notes |= {"area"} if self.clause.deed not in (None, st.Verb.DRIVE) else set()  # "stops in it"
         self.fact("destination" if side == "into" or turned else "origin", chunk)

@@ -169,7 +169,8 @@ def parted(chunks: list[Chunk]) -> tuple[list[Chunk], list[Chunk]]:
     if not commas:
         raise UnknownWordsError("it is not clear where the moment ends", fix="put a comma before what happens")
     parts = [chunks[start + 1 : end] for start, end in zip(commas, [*commas[1:], len(chunks)], strict=True)]
-    cut = commas[_who_acts(parts)]
+    timed = chunks[commas[0] - 1].value == "the start" and all(each.kind not in _ACTS for each in chunks)
+    cut = commas[0 if timed else _who_acts(parts)]  # all that is so "5 s after the start"
     main = chunks[cut + 1 :]
     return chunks[:cut], main[1:] if main and main[0].value == "then" else main
 
@@ -351,9 +352,8 @@ class _Items:
             between &= self.chunks[self.at - 1].kind in PEOPLE
             closes = any(self.is_joint(link) for link in inside) or self.is_beside()
             if self.at > start + 1 and self._is_of_another():  # "40 m behind a van that stands": the van stands
-                self.chunks[self.at : self.at + (chunk.kind == "relative")] = [
-                    replace(chunk, kind="relative", traits=())
-                ]
+                who = [replace(chunk, kind="relative", traits=())]
+                self.chunks[self.at : self.at + (chunk.kind == "relative")] = who
                 break
             fronted = self._is_fronted(start)
             if self.at > start and (closes or (parts and not (between or fronted) and self._begins(self.at + 1))):

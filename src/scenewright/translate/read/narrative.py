@@ -127,6 +127,11 @@ class Narrative(Cast):
         stops = any(doing.verb in (st.Verb.BRAKE, st.Verb.STAND) for doing in own)
         if not own or stops is not (courtesy == "yields"):
             self.refuse("it is not said what is done to yield, or instead", quote, "say where it stops or passes")
+        ends = [each for doing in own if doing.ends is not None for each in self.moments[doing.ends].conditions]
+        places = {each.place.name for each in ends if isinstance(each, st.Measure) and each.place}
+        stands = any(st.standstill(doing.actor) in ends or (doing.rests and doing.ends is None) for doing in own)
+        if "conflict_point" not in places and not stands:
+            self.assumptions.append(f"'{quote.text}' asks for nothing of who passes first: say that besides")
 
     def _refrain(self, who: int | None, what: str, quote: st.Quote, always: bool) -> None:
         """Let somebody not brake, or not stop, in all that it does: from its first moment on, or always."""
@@ -205,12 +210,14 @@ class Narrative(Cast):
     def moment(self, items: Sequence[Clause], until: int | None = None) -> int:
         """Return the moment that a list of clauses tells, known or new; `until` is whose deed ends then."""
         for item in items:
+            if "drives" in item.notes and not item.says_more_than():
+                self.refuse("it is not said what is so then", item.quote)  # "is 20 m behind it and moving"
             item.flags -= {"falls"}  # what is reached is so when it is
             if "then" in item.notes:  # "until the ego is 20 m before it and then passes it"
                 self.refuse("it is not clear who does this then", item.quote, "say it in a sentence of its own")
             if item.is_event and "has" in item.notes:  # "once the ego has passed it": then, or sooner
                 item.measures = [replace(each, op=">=") for each in item.measures]
-            if item.deed == "stop" and item.subject in (until, EGO):  # "until it comes to a stop"; the ego has no deeds
+            if item.deed == "stop" and item.subject in {until, EGO} - {None}:  # the ego has no deeds
                 item.deed, item.measures = None, [st.standstill(item.subject or EGO), *item.measures]
         events = [item for item in items if item.deed is not None]
         conditions = self.conditions([item for item in items if item not in events], "times")
@@ -334,9 +341,9 @@ class Narrative(Cast):
         same = [each for each in self.doings if each.actor == clause.subject and each.verb == verb]
         if clause.phase == "finishes" or clause.ordinal:
             return same[clause.ordinal] if clause.ordinal < len(same) else None
-        begun = [each for each in same if each.begins != st.START]
-        begun = begun or [each for each in same if each.verb != st.Verb.DRIVE]  # nobody was told to drive on from then
-        if len(begun) < 2 or clause.phase is not None:
+        later = [each for each in same if each.begins != st.START]
+        begun = later or [each for each in same if each.verb != st.Verb.DRIVE]
+        if len(begun) < 2 or clause.phase is not None:  # none where it was not told to drive on
             return next(iter(begun), None)
         ways = [f"for the {ORDINALS[same.index(each)]} time" for each in begun]
         asked, last = f"Which time is meant: {clause.quote.text}", len(ways) - 1

@@ -130,6 +130,7 @@ class _Sentence:
         if later is not None and not main.chunks:  # the moment stands in front, and is read first
             if any(chunk.kind in ("comma", "deed") for chunk in later.chunks):
                 later.chunks, main.chunks = parted(later.chunks)
+            later.chunks = story.settled(later.chunks, main.chunks)
             when, is_while, later = told_moment(story, later), later.lasts, None
             self.lasting = all_the_while(story, when) if is_while else []
         if rest and rest[0].is_first:  # "after it has stopped, the truck ..."
@@ -145,6 +146,9 @@ class _Sentence:
             story.refuse("it is not clear who does this, or when", fix="say it in a sentence of its own")
         main.chunks, during = during_of([*main.chunks, *tail])
         items = items_of(story, main.chunks, story.subject)
+        is_more = when and any(each.kind in ("amount", "bound", "side") for each in main.chunks[:1])
+        if is_more and not any("said" in each.notes or each.flags for each in items):
+            story.refuse("it is not clear of whom this is", items[0].quote)  # "Trigger: the ego is at it, 5 m/s"
         if during:
             if when and sum(each.deed is not None for each in items) > 1:
                 story.refuse("it is not clear how long this is so", fix="say it of one deed, in a sentence of its own")
@@ -283,13 +287,12 @@ class _Sentence:
     def _facts(self, items: list[Clause]) -> None:
         """Take what is so at the start, all the while, later, or of somebody's way."""
         story, words = self.story, self.led.words
+        later = words & {"then", "later", "same time", "meanwhile"}
         for item in items:
             sides = {each.kind for each in item.relations} & {"ahead", "behind"}
             acts = any(doing.actor == item.subject for doing in story.doings)
             turns = acts and [*item.facts] == ["turn"] and item.facts["turn"] != "straight"
-            if turns or (
-                (sides or (item.facts and story.doings)) and words & {"then", "later", "same time", "meanwhile"}
-            ):
+            if turns or (later and (sides or (item.facts and story.doings))):
                 self._when_unclear()  # which way one goes, and on whose side it is, is told of the start alone
             story.tell(item)
             if item.subject is not None:
