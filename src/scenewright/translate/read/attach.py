@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
-from itertools import pairwise
 
 from scenewright.errors import UnknownWordsError
 from scenewright.program.types import EGO
@@ -52,9 +51,8 @@ def _attach(taken: Taken) -> None:
             taken.people.mentioned.insert(0, target.other)
     if (clause.deed, clause.subject) == (st.Verb.STAND, EGO) and not clause.says_more_than("deed"):
         clause.deed, taken.states = None, taken.states | {"stands"}  # nobody tells the ego to: "the ego waits"
-    to_turn = clause.deed and any((one.value, two.kind) == ("to", "turn") for one, two in pairwise(taken.chunks))
-    if to_turn or ("in" in clause.times and clause.deed != "stop" and not clause.flags & {"to", "standstill"}):
-        raise taken.left_over(last)  # "brakes to turn right"; "brakes within 4 s": until then, or for so long?
+    if "in" in clause.times and clause.deed != "stop" and not clause.flags & {"to", "standstill"}:
+        raise taken.left_over(last)  # "brakes within 4 s": until then, or for so long?
     if "stands" in taken.states:
         taken.measure(last, st.standstill(IT))
     for name in sorted(taken.states & {"turn_start", "turn_end"}):

@@ -451,8 +451,8 @@ class Taken:
             self.clause.notes.add("origin")
         elif chunk.kind == "origin" or (chunk.kind == "then_headed" and self.peek()[0] != "heading"):
             raise self.left_over(chunk)
-        elif chunk.text.lower().startswith("to ") and "origin" not in facts:
-            raise self.left_over(chunk)  # "leaves the road to the left", not "is to the left"
+        elif (chunk.words[:3] == "to " and "origin" not in facts) or (self.clause.deed and self.peek(-1)[1] == "to"):
+            raise self.left_over(chunk)  # "leaves the road to the left", not "is to the left"; "brakes to turn right"
         else:
             if chunk.text.lower().split()[0] in ("turning", "making", "taking"):
                 self.clause.notes.add("wanted")
