@@ -48,7 +48,7 @@ def _attach(taken: Taken) -> None:
                 raise taken.left_over(target.chunk)  # nobody passes a stop line of another's way
         elif target.place is None and target.other is None:
             target.other = taken.people.whom(target.chunk.quote, clause.subject)
-            taken.people.mentioned.insert(0, target.other)
+            taken.people.meant.append(target.other)
     if (clause.deed, clause.subject) == (st.Verb.STAND, EGO) and not clause.says_more_than("deed"):
         clause.deed, taken.states = None, taken.states | {"stands"}  # nobody tells the ego to: "the ego waits"
     if "in" in clause.times and clause.deed != "stop" and not clause.flags & {"to", "standstill"}:

@@ -36,6 +36,7 @@ class Cast:
     assumptions: list[str] = field(default_factory=list)
     questions: list[st.Question] = field(default_factory=list)
     mentioned: list[int] = field(default_factory=list)  # in this sentence
+    meant: list[int] = field(default_factory=list)  # by "ahead of it" in this sentence
     named: list[Chunk] = field(default_factory=list)  # the words for people that are still to come in it, too
     subject: int | None = None  # of the last main clause
     place: st.Place | None = None  # that was spoken of last
@@ -73,7 +74,7 @@ class Cast:
 
     def whom(self, quote: st.Quote, subject: int | None) -> int:
         """Return the only one who is meant and is not the subject: of the sentence, else of all."""
-        others = set(self.mentioned) - {subject} or set(self.actors) - {subject}
+        others = {*self.mentioned, *self.meant} - {subject} or set(self.actors) - {subject}
         if len(others) != 1:
             self.refuse("it is not clear who is meant", quote)
         return others.pop()

@@ -101,7 +101,7 @@ class _Sentence:
     is_of_last: bool = False  # its moment stands behind what is done: it is of the last deed
 
     def read(self) -> None:
-        self.story.mentioned, self.story.doer = [], None
+        self.story.mentioned, self.story.meant, self.story.doer = [], [], None
         self.chunks = plainly(self.story.known_words(self.chunks))
         self.story.named = [chunk for chunk in self.chunks if chunk.kind in PEOPLE]
         how = next((chunk for chunk in self.chunks if chunk.kind == "link" and chunk.value in HOW), None)
