@@ -66,6 +66,12 @@ def reading_of(text: str) -> Reading:
     return Reading("default" if story.questions else "taken", program, told)
 
 
+def formulas(reading: Reading) -> frozenset[str]:
+    """Return the constraints of a text that is read, as tests write them."""
+    assert reading.program is not None, reading
+    return written(print_expression(each.formula) for each in reading.program.constraints)
+
+
 def written(formulas: Iterable[str]) -> frozenset[str]:
     """Return constraints in one form, without what is implied."""
     turned = (re.sub(r"^(A\d\(t\d\)) < (A\d\(t\d\))$", r"\2 > \1", each) for each in formulas)

@@ -3,18 +3,13 @@
 from __future__ import annotations
 
 import pytest
-from readings import FILLED, Reading, reading_of, written
+from readings import FILLED, Reading, formulas, reading_of
 
 from scenewright.program.printer import print_expression
 
 MEETS = FILLED["DL"] + FILLED["W"]  # the ego turns left out of the driveway, the hero drives west
 ALONG = "The ego drives west along the road. The hero is ahead of the ego and goes straight on. "
 ONCOMING = "The ego drives west. An oncoming hero turns left into the driveway. "
-
-
-def formulas(reading: Reading) -> frozenset[str]:
-    assert reading.program is not None, reading
-    return written(print_expression(each.formula) for each in reading.program.constraints)
 
 
 def pieces(reading: Reading) -> str:

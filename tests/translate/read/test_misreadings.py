@@ -5,24 +5,17 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from readings import Reading, reading_of, written
+from readings import formulas, reading_of
 
-from scenewright.errors import UnknownWordsError
 from scenewright.program.printer import print_expression
 from scenewright.translate.read.sentences import read
 from scenewright.translate.tell import tell
-from scenewright.translate.understand import understand
 
 ALONG = "The ego drives west along the road. The hero is ahead of the ego and goes straight on. "
 ONCOMING = "The ego drives west. An oncoming hero turns left into the driveway. "
 JOINS = "The ego turns right out of the driveway. A car drives westbound along the road. "
 LEFT_AND_RIGHT = "The ego turns left out of the driveway. A car comes from its left and a truck comes from its right. "
 BRAKES = LEFT_AND_RIGHT + "When the ego is 10 m before its stop line, the car brakes at 3 m/s^2 to a stop. "
-
-
-def formulas(reading: Reading) -> frozenset[str]:
-    assert reading.program is not None, reading
-    return written(print_expression(each.formula) for each in reading.program.constraints)
 
 
 def told_in(text: str) -> str:
@@ -498,174 +491,3 @@ def test_up_to_is_a_bound_but_of_where_one_drives() -> None:
 def test_who_does_what_stands_behind_a_moment_is_asked() -> None:
     told = told_in(f"{ROAD}The hero speeds up to 15 m/s {BEHIND} and brakes.")
     assert "Of whom is 'brakes'" in told
-
-
-@pytest.mark.parametrize(
-    ("text", "told"),
-    [
-        ("The ego turns left at the stop line.", "'the stop line'"),
-        ("The ego drives to the intersection.", "not clear when this is so"),
-        ("The ego drives on to the intersection.", "not clear when this is so"),
-        ("The ego comes to the stop line.", "not clear when this is so"),
-        ("The ego drives past the intersection.", "not clear when this is so"),
-        ("The ego turns left at 5 m/s.", "not clear when this is so"),
-        ("The hero drives to the stop line and stops there. The ego turns left.", "'there'"),
-    ],
-)
-def test_where_and_how_fast_somebody_will_be_is_not_told_of_the_start(text: str, told: str) -> None:
-    with pytest.raises(UnknownWordsError, match=told):
-        understand(f"{text} An oncoming car brakes when the ego is 30 m from the intersection.")
-
-
-@pytest.mark.parametrize("way", ["turns left", "goes straight", "drives straight", "turns right"])
-@pytest.mark.parametrize("where", ["at the intersection", "at the junction", "through the intersection"])
-def test_where_a_way_turns_is_not_where_somebody_begins(way: str, where: str) -> None:
-    rest = "An oncoming car brakes to a stop when the ego is 30 m from the intersection."
-    found, told = (understand(f"The ego {each}. {rest}").program for each in (f"{way} {where}", way))
-    assert [each.formula for each in found.constraints] == [each.formula for each in told.constraints]
-    assert found.actors == told.actors
-
-
-OUT = "The ego turns left out of the driveway. A car drives west along the road. "
-LEADS = "The ego drives west. A van drives ahead of it in the same lane. "
-MERGES = "The ego drives west."
-TURNS = "The ego drives west. A van turns right out of the driveway. "
-TWO = "The ego turns left out of the driveway. A car drives west. A truck drives east. "
-AT_10 = "When the ego is 10 m before the stop line, "
-AT_20 = "When the ego is 20 m behind the van, "
-
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        f"{OUT}The car goes straight on past the intersection. {AT_10}the car brakes.",
-        f"{OUT}The car drives west at the intersection. {AT_10}the car brakes.",
-        f"{OUT}The car drives at 30 mph at the intersection. {AT_10}the car brakes.",
-        f"{OUT}{AT_10}the car drives at 5 m/s to the stop line and stops.",
-        f"{LEADS}{AT_20}the van accelerates at the stop line.",
-        f"{LEADS}{AT_20}the van brakes at the stop line.",
-        f"{LEADS}{AT_20}the van drives on at the stop line.",
-        f"{LEADS}The van drives at 5 m/s. {AT_20}the van sets off.",
-        f"{LEADS}{AT_20}the van brakes to 5 m/s. Then it pulls away.",
-        f"{LEADS}{AT_20}the van brakes to a stop. When it sets off, the ego is 5 m behind it.",
-        f"{LEADS}{AT_20}the van brakes to a stop. When the van drives on, the ego is at 5 m/s.",
-        f"{LEADS}{AT_20}the van brakes to a stop. Until it sets off, the gap is at least 5 m.",
-        *(
-            f"{OUT}{AT_10}the car brakes to a stop. {then} the ego turns left."
-            for then in ("Then", "After that", "Later", "At that moment", "Meanwhile")
-        ),
-        f"{MERGES} A van turns right out of the driveway, then brakes to a stop.",
-        f"{OUT}The car stops at the stop line, then turns right.",
-        f"{OUT}{AT_10}the car brakes to 5 m/s. It turns right. Then it accelerates.",
-        *(f"{OUT}The car {way}, then stops." for way in ("drives west", "goes straight on", "comes from the east")),
-        f"{LEADS}After the turn, the van brakes to a stop.",
-        f"{LEADS}When the ego is 20 m behind the van after braking, the van accelerates.",
-        *(
-            f"{TWO}{AT_10}{which} brakes to a stop."
-            for which in ("the vehicle", "that vehicle", "the heavy vehicle", "one", "the first one", "the first")
-        ),
-        f"{MERGES} A red car drives west. A blue car drives east. {AT_10}the blue car brakes. The car waits for 2 s.",
-        *(
-            f"{OUT}Trigger: {when}. Action: the car brakes to a stop."
-            for when in ("the ego is 10 m before the stop line, 5 m/s", "ego at 5 m/s, 10 m before the stop line")
-        ),
-        *(
-            f"{LEADS}{AT_20}the van brakes to a stop. When stopped, {who} is 10 m from the intersection."
-            for who in ("the van", "it")
-        ),
-        f"{MERGES} A van approaches the driveway. {AT_10}the van brakes.",
-        f"{MERGES} A van drives in the left lane. {AT_10}the van brakes.",
-        f"{LEADS}The van drives off the road. {AT_20}the van brakes.",
-        f"{OUT}{AT_10}the car brakes to a stop. The ego passes the conflict point directly after the car stops.",
-        *(f"{OUT}{AT_10}the car stops {how} behind the stop line." for how in ("just", "right", "directly")),
-        f"{LEADS}{AT_20}the van brakes to 5 m/s having passed the intersection.",
-        f"{MERGES} A van is 20 m in front of it and a car 20 m behind it. {AT_10}the van brakes.",
-        *(
-            f"{OUT}{AT_10}the car {does}."
-            for does in (
-                "brakes to turn right",
-                "is first at the conflict point",
-                "accelerates to 9 m/s there",
-                "goes first, keeping its speed",
-                "keeps its speed and goes first",
-            )
-        ),
-        f"{OUT}{AT_10}only the car brakes.",
-        *(f"{LEADS}When the ego is 20 m behind the van and {so}, the van brakes." for so in ("moving", "still moving")),
-        *(
-            f"{TURNS}{AT_10}the van {does}."
-            for does in (
-                "leaves the driveway and stops",
-                "comes out of the driveway and accelerates to 5 m/s",
-                "stops in the driveway",
-                "waits in the driveway for 3 s",
-                "accelerates onto the road",
-            )
-        ),
-    ],
-)
-def test_what_may_mean_two_things_is_refused_or_asked(text: str) -> None:
-    assert reading_of(text).kind in ("refused", "asked")
-
-
-@pytest.mark.parametrize(
-    ("text", "plainer"),
-    [
-        *((f"{OUT}The car {to} the stop line. {AT_10}the car brakes.",
-           f"{OUT}The car drives on until it passes the stop line. {AT_10}the car brakes.")
-          for to in ("is headed to", "heads to", "follows the road to", "keeps its lane to", "goes straight on to")),
-        *((f"{OUT}{AT_10}the car {to} the stop line and stops.", f"{OUT}{AT_10}the car stops at the stop line.")
-          for to in ("goes to", "heads to", "comes to", "drives on to")),
-        *((f"{LEADS}{AT_20}the van {does}.", f"{LEADS}The van stands. {AT_20}the van drives on.")
-          for does in ("sets off", "starts moving", "pulls away")),
-        (f"{LEADS}{AT_10}the van sets off at the stop line.",
-         f"{LEADS}The van stands. {AT_10.removesuffix(', ')} and the van is at the stop line, the van drives on."),
-        (f"{LEADS}{AT_20}the van begins to brake at the stop line to 5 m/s.",
-         f"{LEADS}When the ego is 20 m behind the van and the van is at the stop line, the van brakes to 5 m/s."),
-        *((f"{OUT}{AT_10}the car brakes to a stop. Then it {way}.",
-           f"{OUT}{AT_10}the car brakes to a stop. Then it drives on.") for way in ("drives west", "goes straight on")),
-        (f"{OUT}{AT_10}the car brakes to a stop, waits 2 s and goes straight on.",
-         f"{OUT}{AT_10}the car brakes to a stop, waits 2 s and drives on."),
-        (f"{OUT}The car stands at the stop line. {AT_10}the car drives straight on and stops at the intersection.",
-         f"{OUT}The car stands at the stop line. {AT_10}the car drives on and stops at the intersection."),
-        (f"{TURNS}After turning right, the van brakes to a stop.",
-         f"{TURNS}When the van is at or past the end of the turn, the van brakes to a stop."),
-        (f"{OUT}The car brakes {AT_10.lower().removesuffix(', ')} and stands 5 m before the conflict point.",
-         f"{OUT}{AT_10}the car brakes to a stop 5 m before the conflict point."),
-        (f"{MERGES} A van turns right out of the driveway at the intersection. {AT_10}the van brakes.",
-         f"{MERGES} A van turns right out of the driveway. {AT_10}the van brakes."),
-    ],
-)  # fmt: skip
-def test_what_is_said_otherwise_is_read_as_what_it_means(text: str, plainer: str) -> None:
-    assert formulas(reading_of(text)) == formulas(reading_of(plainer))
-
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        f"{OUT}{AT_10}it is 30 m from the intersection. The car brakes.",
-        f"{OUT}{AT_10}its speed is 5 m/s and the car brakes to a stop.",
-        f"{OUT}{AT_10}the car brakes. When the ego turns, its speed is 5 m/s.",
-        f"{LEADS}{AT_20}the van brakes to a stop. When the ego passes the intersection, it is 20 m ahead.",
-        f"{LEADS}A car drives behind the ego in the same lane. When it is 20 m ahead of the ego, the van brakes.",
-    ],
-)
-def test_whose_a_state_behind_the_moment_of_another_is_is_asked(text: str) -> None:
-    assert "Who is 'it'?" in reading_of(text).told
-
-
-@pytest.mark.parametrize(
-    "does",
-    ["keeps its speed and does not yield", "accelerates without yielding", "brakes to 5 m/s and yields to the ego"],
-)
-def test_a_courtesy_that_nothing_is_held_of_is_told(does: str) -> None:
-    told = read(f"{OUT}{AT_10}the car {does}.").assumptions
-    assert any("asks for nothing of who passes first" in each for each in told)
-
-
-def test_a_courtesy_of_who_stands_or_passes_first_is_held() -> None:
-    for does in (
-        "brakes to a stop, yielding to the ego",
-        "does not yield and passes the conflict point before the ego",
-    ):
-        assert all("asks for" not in each for each in read(f"{OUT}{AT_10}the car {does}.").assumptions), does
