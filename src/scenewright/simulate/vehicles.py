@@ -71,7 +71,7 @@ class EgoVehicle:
         # Who has left the line of its route by a motion of its own is not put back onto it: it goes on beside it.
         way_m = 0.5 * (before_mps + speed_mps) * dt_s
         # Beyond the centre of a bend there is no way along it; the floor keeps it going.
-        s_m += way_m / max(0.1, 1.0 - self.route.path.curvature(s_m + 0.5 * way_m) * d_m)
+        s_m += way_m / max(0.1, 1.0 - self.route.path.curvature(s_m + 0.5 * way_m) * d_m) if d_m else way_m
         self.state = on_route(self.route, (s_m, speed_mps, accel_mpss), d_m)
 
 

@@ -116,7 +116,7 @@ class Search:
         """Return linearised rows over scaled steps, their levels (to be at most zero, or zero) and which are equal."""
         compiled, count = self._compiled, len(self._compiled.atoms)
         parts = [(compiled.values(point), compiled.gradients(point), compiled.equal)]
-        parts += [line.rows(point) for line in self._lines.values()]
+        parts.append(_laws(list(self._lines.values()), point))
         levels, rows, equal = (np.concatenate([part[k] for part in parts]) for k in range(3))
         rows = rows[:, :-1] * self._scale
         norms = np.maximum(np.sqrt((rows * rows).sum(axis=1)), 1e-9)
@@ -157,34 +157,17 @@ class _Line:
         rank = self.before.sum(axis=0)
         return sorted(range(len(times)), key=lambda k: (latest[k], rank[k], k))
 
-    def rows(self, point: Array) -> tuple[Array, Array, NDArray[np.bool_]]:
-        """Return the laws between neighbours: levels, slopes by all unknowns, and which are equal."""
+    def stretches(self, point: Array) -> tuple[NDArray[np.intp], Array, Array, NDArray[np.bool_]]:
+        """Return what lies between neighbours: numbers of unknowns at both ends, factors of times, bounds, one rate.
+
+        Rows are both speeds, times and places, the later one first but for speeds; and the times' factors.
+        """
         order = self.sorted(point)
-        early, late = np.array(order[:-1], dtype=np.intp), np.array(order[1:], dtype=np.intp)
-        bounds, even = self.bounds_between(order, point)
-        times, place = self.time_factor * point[self.time], point[self.place]
-        ends = (
-            point[self.speed[early]],
-            point[self.speed[late]],
-            times[late] - times[early],
-            place[late] - place[early],
-        )
-        levels, slopes, equal, keep = _conditions(bounds, even, np.array(ends))
-        count, kinds, width = len(early), levels.shape[0], len(point)
-        rows = np.zeros((kinds, count, width))
-        pair = np.arange(count)
-        g1, g2, gd, gx = np.moveaxis(slopes, 1, 0)
-        for column, slope in (
-            (self.speed[early], g1),
-            (self.speed[late], g2),
-            (self.time[late], gd * self.time_factor[late]),
-            (self.time[early], -gd * self.time_factor[early]),
-            (self.place[late], gx),
-            (self.place[early], -gx),
-        ):
-            rows[:, pair, column] += slope
-        keep = keep.reshape(-1)
-        return levels.reshape(-1)[keep], rows.reshape(-1, width)[keep], np.repeat(equal, count)[keep]
+        early, late = order[:-1], order[1:]
+        ends = [self.speed[early], self.speed[late], self.time[late], self.time[early]]
+        columns = np.array([*ends, self.place[late], self.place[early]])
+        factors = np.array([self.time_factor[late], self.time_factor[early]])
+        return columns, factors, *self.bounds_between(order, point)
 
     def bounds_between(self, order: Sequence[int], point: Array) -> tuple[Array, NDArray[np.bool_]]:
         """Return the bounds of the law between each two neighbours (see `_conditions`), and where there is one rate.
@@ -209,6 +192,21 @@ class _Line:
 
 def _bounds_of(law: Law) -> Array:
     return np.array([float(each) for each in (law.rate_low, law.rate_high, law.speed_low, law.speed_high)])
+
+
+def _laws(lines: Sequence[_Line], point: Array) -> tuple[Array, Array, NDArray[np.bool_]]:
+    """Return the laws between neighbours on all lines: levels, slopes by all unknowns, and which are equal."""
+    found = zip(*(line.stretches(point) for line in lines), strict=True)
+    columns, (to, since), bounds, even = (np.concatenate(each, axis=-1) for each in found)
+    first, second, late, early, there, here = point[columns]
+    levels, slopes, equal, keep = _conditions(
+        bounds, even, np.array([first, second, to * late - since * early, there - here])
+    )
+    rows, pair = np.zeros((*levels.shape, len(point))), np.arange(len(even))
+    g1, g2, gd, gx = np.moveaxis(slopes, 1, 0)
+    for column, slope in zip(columns, (g1, g2, gd * to, -gd * since, gx, -gx), strict=True):
+        rows[:, pair, column] += slope
+    return levels[keep], rows[keep], np.repeat(equal, len(even)).reshape(keep.shape)[keep]
 
 
 def _conditions(
@@ -236,9 +234,10 @@ def _conditions(
     equal = [(one_rate, ~free), (one, ~free | even)]
     rows = [(row, free) for row in bounded(al, be, lo, hi, v1, v2, d, x)]
     rows += [(row, always) for row in (-d, v1 - hi, lo - v1, v2 - hi, lo - v2)]
-    for pair in capped(al, be, lo, hi, v1, v2, d, x):
-        units = [row[0] / np.maximum(np.linalg.norm(_slopes(row) * _ENDS[:, None], axis=0), 1e-9) for row in pair]
-        rows.append((np.where(units[0] <= units[1], *pair), free & (al < 0) & (be > 0)))
+    pairs: Array = np.array(capped(al, be, lo, hi, v1, v2, d, x))
+    sizes = np.sqrt(np.sum((_slopes(pairs) * _ENDS[:, None]) ** 2, axis=-2))
+    for pair, (first, second) in zip(pairs, pairs[:, :, 0] / np.maximum(sizes, 1e-9), strict=True):
+        rows.append((np.where(first <= second, *pair), free & (al < 0) & (be > 0)))
     values = np.array([row for row, _ in (*equal, *rows)])
     keep = np.array([there for _, there in (*equal, *rows)])
     return values[:, 0], _slopes(values), np.repeat([True, False], (len(equal), len(rows))), keep
