@@ -14,6 +14,8 @@ from scenewright.request import Request, Result
 from scenewright.takes import how_next, is_enough, worth
 from stories import STORIES
 
+pytestmark = pytest.mark.usefixtures("replanned_seldom")
+
 
 class Halts:
     """An ego that halts for some seconds in the middle of nowhere, but where it is alone."""

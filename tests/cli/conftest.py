@@ -32,6 +32,11 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
+@pytest.fixture(autouse=True)
+def runs_planned_seldom(replanned_seldom: None) -> None:
+    """What becomes of a run is the matter of other tests."""
+
+
 @pytest.fixture
 def command() -> Callable[..., Any]:
     """Return the command, called in this process with words; the result has exit_code, stdout and stderr."""

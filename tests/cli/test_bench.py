@@ -263,7 +263,7 @@ def test_without_options_it_shows_its_help(command: Command) -> None:
     assert command("bench").stdout == command("bench", "--help").stdout
 
 
-@pytest.mark.usefixtures("in_one_process", "replanned_seldom")
+@pytest.mark.usefixtures("in_one_process")
 def test_examples_in_help_run_as_they_stand(command: Command, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("COLUMNS", "80")
     monkeypatch.setattr("scenewright.takes.how_next", lambda *_: ())  # nothing is taken again

@@ -53,7 +53,7 @@ def commands_of(page: Path) -> list[tuple[list[str], int]]:
 
 
 # What is proposed is in the proof below.
-@pytest.mark.usefixtures("in_one_process", "replanned_seldom", "nothing_proposed")
+@pytest.mark.usefixtures("in_one_process", "nothing_proposed")
 @pytest.mark.parametrize("page", [page for page in PAGES if commands_of(page)], ids=lambda page: page.stem)
 def test_commands_run_in_order(command: Command, folder: Path, page: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("scenewright.explain.ways_out._TRIES", 1)  # each is a whole run

@@ -28,7 +28,6 @@ def examples_of(text: str) -> list[str]:
     return [block.strip() for block in blocks if block.strip()]
 
 
-@pytest.mark.usefixtures("replanned_seldom")
 @pytest.mark.parametrize("name", ["", *COMMANDS])
 def test_examples_in_help_run_as_they_stand(command: Command, name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("COLUMNS", "80")

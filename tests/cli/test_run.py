@@ -13,7 +13,6 @@ from sentences import IMPOSSIBLE, OPEN_SENTENCE, SENTENCE
 
 from forms import PROBE, UNPLANNED
 
-pytestmark = pytest.mark.usefixtures("replanned_seldom")  # what a run comes to is the matter of other tests
 Command = Callable[..., Any]
 EXAMPLES = Path(__file__).resolve().parents[2] / "examples"
 FILES = {

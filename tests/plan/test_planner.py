@@ -24,6 +24,7 @@ from scenewright.solve.plan import Plan, PlanWorld
 from scenewright.study.benchmark import benchmark_rows, draw_row
 from stories import BRAKES_GAP, STOPS_AHEAD, STOPS_AND_GOES, STORIES, YIELDS_DISTANCE, program
 
+pytestmark = pytest.mark.usefixtures("replanned_seldom")
 STARTS_NEAR = program(
     "W",
     "t0, go, t1, dec, t2",
@@ -267,6 +268,7 @@ def test_who_is_to_stand_until_its_trigger_stands_and_the_ego_has_to_come() -> N
     assert lead.knot_times_s["t1"] > 2.0
 
 
+@pytest.mark.usefixtures("searched_less")
 @pytest.mark.parametrize("ego", ["idm", "constant"])
 def test_what_the_program_asks_for_is_not_given_up_for_room(ego: str) -> None:
     """Whoever is told where and how it brakes does so, even if the ego is not foreseen to answer it."""

@@ -17,6 +17,7 @@ from scenewright.request import Request
 from scenewright.roads.grounding import ground
 from scenewright.roads.load import load_map
 
+pytestmark = pytest.mark.usefixtures("replanned_seldom")
 SCENES = sorted(EXAMPLES.glob("*.scene"))
 SCRIPTS = sorted(path for path in EXAMPLES.glob("*.py") if "import Scenario" in path.read_text(encoding="utf-8"))
 # The ego of this one would have to stand in the conflict point at the moment at which the hero stops before it.

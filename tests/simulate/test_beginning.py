@@ -26,6 +26,8 @@ from scenewright.simulate.world import World
 from scenewright.solve.arrival import linear_conditions
 from stories import BRAKES_GAP, GOES_FIRST_TIME, STOPS_AND_GOES, YIELDS_DISTANCE, YIELDS_TIME, program
 
+pytestmark = pytest.mark.usefixtures("replanned_seldom")
+
 # Only an ego that comes slowly leaves the hero the time to be first.
 IN_TIME = program(
     "E, N",
