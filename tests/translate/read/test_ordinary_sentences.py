@@ -103,6 +103,54 @@ AT_20 = "When the ego is 20 m behind the van, "
         f"{OUT}{AT_10}only the car brakes.",
         *(f"{LEADS}When the ego is 20 m behind the van and {so}, the van brakes." for so in ("moving", "still moving")),
         *(
+            f"{MERGES} {who} is 50 m ahead. {AT_20.replace('van', 'truck')}the truck accelerates to 8 m/s."
+            for who in ("A slow truck", "A braking truck", "The stopping truck", "A moving truck")
+        ),
+        *(
+            f"{LEADS}When the ego is 20 m behind the van {where}, the van brakes."
+            for where in ("at the stop line", "30 m before the intersection", "at 10 m/s or more", "with 10 m/s")
+        ),
+        *(
+            f"{LEADS}{AT_20}the van brakes to a stop. {then}."
+            for then in (
+                "The van drives at 10 m/s until it brakes",
+                "Meanwhile it accelerates to 8 m/s",
+                "Meanwhile it waits for 3 s",
+                "Meanwhile the ego passes the intersection",
+                "Instead, it drives on",
+                "It stops when the ego stops",
+                "It brakes when the ego is at the intersection",
+                "It waits until it has passed the intersection",
+                "When it passes the intersection, it accelerates to 8 m/s",
+            )
+        ),
+        *(f"{LEADS}{AT_20}the van brakes to a stop and {so}." for so in ("the gap is 5 m", "the ego is at 5 m/s")),
+        *(f"{LEADS}{AT_20}the van {does} 5 m/s for 4 s." for does in ("brakes to", "slows down to")),
+        f"{LEADS}The van's deceleration is 3 m/s^2. {AT_20}the van brakes to a stop.",
+        f"{LEADS}The van is 40 m ahead of it, which drives at 8 m/s. {AT_20}the van brakes.",
+        *(
+            f"{TURNS}When the ego is 40 m before the conflict point, the van {does}."
+            for does in (
+                "passes the stop line 1 s ahead of the ego",
+                "finishes its turn 20 m ahead of the ego",
+                "is turning right",
+                "wants to turn right",
+                "starts its turn and stops",
+                "turns right accelerating to 8 m/s",
+                "turns right braking to a stop",
+                "turns right, waiting for 2 s",
+                "passes the stop line, driving at 5 m/s",
+                "passes the stop line, keeping its speed",
+            )
+        ),
+        f"{TURNS}The van has just turned right. {AT_10}the van brakes.",
+        f"{TURNS}When the ego is about to pass the intersection, the van brakes.",
+        f"{LEADS}When the ego (at 10 m/s) is 20 m behind the van (at 8 m/s), the van brakes to a stop.",
+        f"{OUT}{AT_10}the car brakes to a stop. It waits 2 s after the ego has passed the conflict point.",
+        f"{OUT}The ego must wait. {AT_10}the car brakes to a stop.",
+        *(f"{OUT}{AT_10}the car brakes to a stop. It {way}." for way in ("drives west", "goes straight on")),
+        f"{OUT}{AT_10}the car brakes. Until the ego passes the intersection, the car stays at least 20 m from it.",
+        *(
             f"{TURNS}{AT_10}the van {does}."
             for does in (
                 "leaves the driveway and stops",
@@ -142,6 +190,24 @@ def test_what_may_mean_two_things_is_refused_or_asked(text: str) -> None:
          f"{TURNS}When the van is at or past the end of the turn, the van brakes to a stop."),
         (f"{OUT}The car brakes {AT_10.lower().removesuffix(', ')} and stands 5 m before the conflict point.",
          f"{OUT}{AT_10}the car brakes to a stop 5 m before the conflict point."),
+        *((f"{LEADS}{AT_20}the van {does}.", f"{LEADS}{AT_20}the van sets off.")
+          for does in ("starts", "starts driving", "starts to move")),
+        (f"The ego turns left out of the driveway. {AT_10}a car brakes to a stop. The car drives west along the road.",
+         f"{OUT}{AT_10}the car brakes to a stop."),
+        (f"{TURNS}A waiting van is at the stop line. {AT_10}the van drives on.",
+         f"{TURNS}The van waits at the stop line. {AT_10}the van drives on."),
+        (f"{TURNS}{AT_10}the van pulls out, accelerating to 8 m/s.",
+         f"{TURNS}The van stands. {AT_10}the van accelerates to 8 m/s."),
+        (f"{LEADS}The van stands. {AT_20}the van is still stopped.", f"{LEADS}The van stands. {AT_20}the van stands."),
+        (f"{LEADS}The van drives at 15 m/s, faster than the ego. {AT_20}the van brakes.",
+         f"{LEADS}The van drives faster than the ego. It drives at 15 m/s. {AT_20}the van brakes."),
+        (f"{LEADS}As the ego is 20 m behind the van, the van is at 5 m/s.", f"{LEADS}{AT_20}the van is at 5 m/s."),
+        (f"{MERGES} An oncoming car turns left. {AT_10}the car turns into the driveway.",
+         f"{MERGES} An oncoming car turns left. {AT_10}the car turns left."),
+        (f"{LEADS}{AT_20}the van brakes to 5 m/s. 3 s after it has braked, it accelerates.",
+         f"{LEADS}{AT_20}the van brakes to 5 m/s. 3 s after it finishes braking, it accelerates."),
+        (f"{LEADS}{AT_20}the van brakes at 2 m/s^2. It stands 10 m before the intersection.",
+         f"{LEADS}{AT_20}the van brakes at 2 m/s^2 to a stop 10 m before the intersection."),
         (f"{MERGES} A van turns right out of the driveway at the intersection. {AT_10}the van brakes.",
          f"{MERGES} A van turns right out of the driveway. {AT_10}the van brakes."),
     ],
@@ -158,10 +224,42 @@ def test_what_is_said_otherwise_is_read_as_what_it_means(text: str, plainer: str
         f"{OUT}{AT_10}the car brakes. When the ego turns, its speed is 5 m/s.",
         f"{LEADS}{AT_20}the van brakes to a stop. When the ego passes the intersection, it is 20 m ahead.",
         f"{LEADS}A car drives behind the ego in the same lane. When it is 20 m ahead of the ego, the van brakes.",
+        f"{LEADS}{AT_20}the van brakes to a stop. When it is 10 m behind it, the van drives on.",
+        f"{TWO}{AT_10}the car brakes to a stop. When the truck has passed the conflict point, it drives on.",
     ],
 )
 def test_whose_a_state_behind_the_moment_of_another_is_is_asked(text: str) -> None:
     assert "Who is 'it'?" in reading_of(text).told
+
+
+def test_when_a_turn_is_that_is_after_something_is_asked_where_a_moment_was_told() -> None:
+    turns = (
+        "The ego drives west. An oncoming car turns left. When the ego is 30 m before the conflict point, the car turns"
+    )
+    reading = reading_of(f"{turns} left after the ego has passed the conflict point.")
+    assert any(each.startswith("When is this") for each in reading.told)
+
+
+@pytest.mark.parametrize(
+    ("does", "at_start"),
+    [
+        ("is 50 m ahead of it", "gap(A0, A1, t0) == 50"),
+        ("drives at 10 m/s", "A1v(t0) == 10"),
+        ("stands in front of it", "A1v(t0) == 0"),
+    ],
+)
+def test_what_is_so_in_front_of_a_deed_whose_moment_is_told_last_may_be_so_at_the_start(
+    does: str, at_start: str
+) -> None:
+    reading = reading_of(f"{LEADS}The van {does} and drives on when the ego is 20 m behind it.")
+    assert any(each.startswith("When is this") for each in reading.told)
+    assert at_start in formulas(reading)
+
+
+def test_who_drives_behind_at_a_headway_is_asked_where_nobody_said_so() -> None:
+    text = f"{MERGES} A van drives at 10 m/s at a headway of 2 s. "
+    assert "Who drives behind?" in reading_of(text).told
+    assert "headway(A0, A1, t0) == 2" in formulas(reading_of(f"{text}The van drives ahead of the ego."))
 
 
 @pytest.mark.parametrize(

@@ -44,17 +44,23 @@ def acts_of(story: Narrative, items: list[Clause], happens: bool) -> list[Clause
         meant = "wanted" in item.notes or ("relative" in item.notes and acts)
         turns = item.facts.get("turn", "straight") != "straight"
         before = found[-1] if found and found[-1].subject == item.subject else Clause(item.quote)
-        is_way = item.deed is None and bool(item.facts) and not (meant or item.says_more_than("facts"))
+        is_bare = bool(item.facts) and not item.says_more_than("facts")
+        is_way, is_meant = is_bare and not meant, {"wanted", "relative"} & item.notes == {"wanted"}  # "is turning"
         own, then = any(each.deed and each.subject == item.subject for each in found), "then" in item.notes
         leaves = is_hero and is_way and "origin" in item.notes  # "when ..., the van leaves the driveway"
         inside = "area" in item.notes and (happens or own or item.deed != st.Verb.STAND)  # "stops in the driveway"
         both = "kept" in item.flags or {"kept", "first"} <= item.flags | before.flags  # "goes first, keeping its speed"
         both &= item.deed is None and before.deed in ("go first", st.Verb.DRIVE)
-        if leaves or inside or both or (is_way and not happens and (own or then)) or (then and item.subject in ways):
+        late = (is_way and not happens and (own or then)) or (then and item.subject in ways)
+        late |= happens and turns and item.deed is not None and not meant  # "turns right accelerating to 8 m/s"
+        if leaves or inside or both or late or (is_bare and is_meant and happens and not acts):
             story.refuse("it is not clear when or where this is done", item.quote, "say it as a deed of its own")
         bare = "turn" not in item.facts and "drives" not in item.notes  # "the car, westbound, brakes"
         aside = acts and not (own or then) and (bare or "ing" in [each[-3:] for each in item.quote.text.split()])
-        if is_hero and is_way and not (turns or aside):
+        if is_hero and "event" in item.notes and not (turns or item.says_more_than("facts", "measures")):
+            story.tell(item)  # "turns into the driveway"
+        drives = "drives" in item.notes and not (acts or meant or item.says_more_than())  # "Then it drives"
+        if is_hero and (drives or (is_way and not (turns or aside))):
             story.tell(item)
             item.deed = st.Verb.DRIVE  # "then it goes straight on"
         elif is_hero and turns and not meant:
@@ -66,21 +72,22 @@ def acts_of(story: Narrative, items: list[Clause], happens: bool) -> list[Clause
             item.flags, item.deed = item.flags - {"first"}, "go first"
         elif "kept" in item.flags and (is_hero or goes_on) and not item.says_more_than("flags", "times", "measures"):
             item.deed = st.Verb.DRIVE  # "when ..., it keeps its speed"; "It keeps this speed for 5 s"
-        elif is_hero and not (acts or meant or item.says_more_than()) and "drives" in item.notes:
-            item.deed = st.Verb.DRIVE  # "Then it drives"
         elif is_hero and refrains and all(other is item or not other.says_more_than() for other in items):
             item.deed = st.Verb.DRIVE  # "when ..., it does not brake"
         elif is_hero and item.phase == "begins" and not item.says_more_than("phase"):
-            item.phase, item.deed = None, st.Verb.DRIVE  # "when ..., it starts driving"
+            item.phase, item.deed, item.notes = None, st.Verb.DRIVE, item.notes | {"sets off"}  # "it starts driving"
         elif item.phase == "begins" and item.deed is None and item.measures:
             item.phase = None
             if is_hero and item.measures[0].quantity is st.Quantity.SPEED:  # "starts driving at 8 m/s"
                 item.deed, item.flags = st.Verb.DRIVE, item.flags | {"to"}
+                item.notes |= set() if item.facts else {"sets off"}
                 item.facts = {} if item.facts.get("turn") == "straight" else item.facts
             else:  # "starts 40 m before the stop line"
                 if any(each.deed is not None and each.subject == item.subject for each in items):
                     story.refuse("it is not clear what starts there", item.quote, "say it in front of what is done")
                 item.flags.add("start")
+        elif is_hero and not acts and "event" in item.notes and not item.is_event:
+            story.refuse("it is not clear when this is so", item.quote)  # "passes it 20 m ahead of the ego"
         if item.subject == EGO and "first" in item.flags:
             item.flags -= {"first"}
             story.afterwards.append(partial(story.ego_first, item.quote))  # when all that is done is told
@@ -88,11 +95,11 @@ def acts_of(story: Narrative, items: list[Clause], happens: bool) -> list[Clause
             ways |= {item.subject} if is_way and item.facts else set()
             story.tell(item)
         beside = item.quote.text.split()[0].endswith("ing") and "then" not in item.notes
-        if item.deed in CHANGES and beside and before.deed is not None:
+        if beside and before.deed and (item.deed in CHANGES or (item.deed and before.deed == "turn")):
             if before.deed != st.Verb.DRIVE or before.says_more_than("deed"):  # "turns left, accelerating at 2 m/s^2"
                 told = "it is not clear whether this is done then or meanwhile"
                 story.refuse(told, item.quote, "say 'then', or 'while'")
-            found.pop()  # "pulls out, accelerating to 8 m/s"
+            item.notes |= found.pop().notes & {"sets off"}  # "pulls out, accelerating to 8 m/s"
             before = Clause(item.quote)
         if item.deed == "stop" and "comes" in before.notes and not item.measures:  # "drives to the line and stops"
             if before.says_more_than("deed", "measures"):

@@ -49,7 +49,8 @@ def _attach(taken: Taken) -> None:
         elif target.place is None and target.other is None:
             target.other = taken.people.whom(target.chunk.quote, clause.subject)
             taken.people.meant.append(target.other)
-    if (clause.deed, clause.subject) == (st.Verb.STAND, EGO) and not clause.says_more_than("deed"):
+    bare = "shall" not in clause.notes and not clause.says_more_than("deed")
+    if (clause.deed, clause.subject) == (st.Verb.STAND, EGO) and bare:
         clause.deed, taken.states = None, taken.states | {"stands"}  # nobody tells the ego to: "the ego waits"
     if "in" in clause.times and clause.deed != "stop" and not clause.flags & {"to", "standstill"}:
         raise taken.left_over(last)  # "brakes within 4 s": until then, or for so long?
@@ -68,12 +69,11 @@ def _attach(taken: Taken) -> None:
     places = [each for each in clause.measures if each.quantity is st.Quantity.PLACE]
     passes_nothing = "pass" in taken.states and all(each.amount is not None for each in places)
     fast = "speed" in taken.quantities or any(each.quantity is st.Quantity.SPEED for each in clause.measures)
-    is_kept = "kept" in clause.flags
     # "It continues at this speed": who drives at it without such a deed may drive as another one does.
     fast |= clause.deed == st.Verb.DRIVE and any(each.kind == "kept" and "speed" in each.text for each in taken.chunks)
-    if is_kept and not fast:  # "keeps a gap of 20 m"
+    if "kept" in clause.flags and not fast:  # "keeps a gap of 20 m"
         raise taken.left_over(last)
-    told = [chunk.amount.dimension for _, _, chunk in taken.amounts if chunk.amount] + ["speed"] * is_kept
+    told = [chunk.dimension for _, _, chunk in taken.amounts] + ["speed"] * ("kept" in clause.flags)
     if passes_nothing or ("reach" in taken.states and not places) or taken.quantities.keys() - {*told}:
         raise taken.left_over(last)
     if "goes" in taken.states and clause.deed is None and not (clause.facts or clause.measures or clause.flags):
@@ -97,11 +97,8 @@ def _attach(taken: Taken) -> None:
 
 def _in_pairs(taken: Taken) -> dict[int, Target]:
     """Return what each amount is counted to where there are as many of both: in their order."""
-    counted = [
-        at
-        for at, _, chunk in taken.amounts
-        if at not in taken.ranges and chunk.amount is not None and chunk.amount.dimension in ("length", "time")
-    ]
+    far = [at for at, _, chunk in taken.amounts if chunk.dimension in ("length", "time")]
+    counted = [at for at in far if at not in taken.ranges]
     free = [target for target in taken.targets if not target.used]
     return dict(zip(counted, free, strict=True)) if len(counted) == len(free) > 1 else {}
 
@@ -180,9 +177,8 @@ def _stand_alone(taken: Taken, target: Target) -> None:
     elif target.side == "at" and target.at < taken.subject_at and not taken.states & {"pass", "reach"}:
         raise taken.left_over(target.chunk)  # "at the junction, the ego ...": it is what follows that is there
     elif target.place is not None and target.side in _BARE:
-        drives = (
-            clause.facts or taken.states & {"drives", "goes"} or (clause.deed, clause.subject) == (st.Verb.DRIVE, EGO)
-        )
+        drives = bool(clause.facts or taken.states & {"drives", "goes"})
+        drives |= (clause.deed, clause.subject) == (st.Verb.DRIVE, EGO)
         clause.notes |= {"comes"} if target.side == "to" or (target.side in ("past", "at") and drives) else set()
         if target.side == "to" and clause.deed is None and clause.subject != EGO:  # where it is headed it is not yet
             clause.deed = st.Verb.DRIVE
@@ -239,12 +235,14 @@ def _give(taken: Taken, at: int, op: st.Operator, chunk: Chunk, paired: Target |
             taken.measure(target.chunk, near)
         return
     asked = named or ("headway" if is_time else "gap")
+    if named is None and is_time and "event" in clause.notes:
+        raise taken.left_over(target.chunk)  # "passes it 1 s ahead of the ego": before it, or at a headway?
     fits = side in ("behind", "ahead") or (named is not None and side in ("to", "with"))
     if target.other is None or not fits or asked not in st.BETWEEN:
         raise taken.left_over(target.chunk)
     behind, both = side == "ahead", (clause.subject or EGO, target.other)  # it is the other one that is behind
     # Who has one is behind, unless it was said to lead; of a gap, and of "brakes at a headway of 2 s", either may be.
-    either = asked == "gap" or clause.deed is not None
+    either = asked == "gap" or clause.deed is not None or (not target.at and clause.subject != EGO)
     if side in ("to", "with") and (either or target.other in taken.people.told_rears(*both)):
         behind = taken.people.rear(*both, chunk.quote) == target.other
     one, other = (target.other, IT) if behind else (IT, target.other)

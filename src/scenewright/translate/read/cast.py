@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import pairwise
 from typing import Any, NoReturn
 
 from scenewright.errors import UnknownWordsError
@@ -40,6 +41,7 @@ class Cast:
     named: list[Chunk] = field(default_factory=list)  # the words for people that are still to come in it, too
     subject: int | None = None  # of the last main clause
     place: st.Place | None = None  # that was spoken of last
+    acting: set[int] = field(default_factory=set)  # who does something, as far as it was told
     doer: int | None = None  # whose deed it is, while what ends it is read
     quote: st.Quote = field(default_factory=lambda: st.Quote(0, 0, ""))  # the sentence that is being read
     # Who is behind whom, by words that do not say it: what is told elsewhere was taken.
@@ -68,7 +70,9 @@ class Cast:
         if self.subject is None or words[:1] != ["it"] or "the start" in words:  # "it is 5 s after the start"
             return chunks
         known = [each for each in following[:1] if each.kind in ("actor", "name") and not each.is_new]
-        people: list[int | None] = [*dict.fromkeys([*(self._named(each) for each in known), self.subject])]
+        both = any(each.kind == "pronoun" and before.value in ("ahead", "behind") for before, each in pairwise(chunks))
+        others = [each for each in self.actors if both and each != self.subject]  # "it is 10 m behind it"
+        people: list[int | None] = [*dict.fromkeys([*others, *(self._named(each) for each in known), self.subject])]
         actor = self.actor(self._one_of(people, "Who is 'it'?", len(people) - 1, chunks[0].quote) or 0)
         return [replace(chunks[0], kind="name", value=actor.name), *chunks[1:]]
 
@@ -217,8 +221,7 @@ class Cast:
         numerals = sorted(words & _MARKS)
         described = " ".join((*sorted(words - _MARKS), name, *numerals))
         numbered = (f"{described} {number}" for number in range(2, len(taken) + 3))
-        names = (*([] if numerals else [name]), described, *numbered)
-        return next(each for each in names if each not in taken)
+        return next(each for each in (*([] if numerals else [name]), described, *numbered) if each not in taken)
 
     def _called(self, chunk: Chunk, name: str, kind: str) -> int:
         for actor in self.actors.values():
@@ -248,8 +251,7 @@ class Cast:
         for name, value in facts.items():
             if name == "then" or (name, value) == ("turn", "on"):
                 continue
-            many = {"headings": tuple(value), "lanes": tuple(value.split(", "))}
-            whole = many.get(name, value)
+            whole = {"headings": tuple(value), "lanes": tuple(value.split(", "))}.get(name, value)
             if getattr(way, name) not in (None, (), whole):
                 self.refuse(f"two things are said of the way of {actor.name}")
             fact: dict[str, Any] = {name: whole}
@@ -271,6 +273,10 @@ class Cast:
         if all(each.slot != slot for each in self.questions):
             self.questions.append(st.Question(slot, text, tuple(alternatives), default, quote))
         return "" if default is None else alternatives[default]
+
+    def is_first(self, slot: str, asked: str, ways: Sequence[str], quote: st.Quote, default: int = 0) -> bool:
+        """Ask which of two ways the words of `quote` are meant: whether it is the first."""
+        return self.ask(f"{slot} {quote.start}", f"{asked}: {quote.text}", [*ways], default, quote) == ways[0]
 
     @property
     def is_open(self) -> bool:

@@ -72,6 +72,11 @@ class Chunk:
         return " ".join(self.text.lower().split())
 
     @property
+    def dimension(self) -> str:
+        """What its amount is one of; nothing where it is none."""
+        return "" if self.amount is None else self.amount.dimension
+
+    @property
     def quote(self) -> Quote:
         """Where it came from."""
         return Quote(self.start, self.end, self.text)
@@ -132,12 +137,11 @@ def _forms(phrase: str) -> list[str]:
         return [phrase]
     verb, _, rest = phrase[1:].partition(" ")
     doubled = verb + verb[-1] if verb in _DOUBLED else verb
-    stem = verb.removesuffix("e")
     carried = f"{verb[:-1]}ie" if verb.endswith("y") and verb[-2] not in "aeiou" else verb  # "carry", "carries"
     third = f"{verb}es" if verb.endswith(("s", "sh", "ch", "x", "o")) else f"{carried}s"
     past = _IRREGULAR.get(verb, f"{carried}d" if carried.endswith("e") else f"{doubled}ed").split()
-    forms = [verb, third, f"{stem if verb.endswith('e') else doubled}ing", *past]
-    return [f"{form} {rest}".strip() for form in forms]
+    now = f"{verb[:-1] if verb.endswith('e') else doubled}ing"
+    return [f"{form} {rest}".strip() for form in (verb, third, now, *past)]
 
 
 def sentences(text: str) -> list[list[Chunk]]:
@@ -200,8 +204,7 @@ def _headed(found: list[list[Chunk]], text: str) -> Iterator[list[Chunk]]:
         label, said = _labelled(chunks)
         line = _LINE.match(text, text.rfind("\n", 0, chunks[0].start) + 1)
         depth = len(line[1]) + (line[2] is not None) if line is not None else 0
-        is_new = any(each.kind == "link" for each in label or ())
-        if heading is not None and depth > heading.depth and not is_new:
+        if heading is not None and depth > heading.depth and not any(each.kind == "link" for each in label or ()):
             if said:
                 heading.take([*(label or ()), *said], depth)
             else:
@@ -243,6 +246,10 @@ def _described(chunks: list[Chunk]) -> list[Chunk]:
             first = len(found)
             while first and found[first - 1].kind in _TRAITS:
                 first -= 1
+            does = found[first - 1] if first > 1 and found[first - 2].kind == "det" else chunk
+            how = (does.kind == "deed" or does.value == "drives") and does.words not in ("waiting", "approaching")
+            if how and not does.words.endswith("ed"):  # "a slow truck": how slow, or since when, nothing here knows
+                found[first - 1] = replace(does, kind="share")
             is_new = first > 0 and (found[first - 1].kind, found[first - 1].value) == ("det", "a")
             chunk = replace(chunk, traits=tuple(found[first:]), is_new=is_new)
             del found[first - is_new :]
@@ -252,14 +259,12 @@ def _described(chunks: list[Chunk]) -> list[Chunk]:
         if chunk.kind == "name" and found and found[-1].kind == "actor":  # "the car 'blue'"
             chunk = replace(chunk, traits=(found.pop(),))
         found.append(chunk)
-    for at, (each, following) in enumerate(pairwise(found)):
-        if each.text == "in" and (following.kind == "bound" or following.amount is not None):
-            found[at] = replace(each, kind="side", value="in")  # "brakes to a stop in 4 s"
-    acts = any(each.kind == "deed" for each in found)
-    if acts and found[0].text.lower() == "as" and any(each.kind == "actor" for each in found[1:3]):
+    if found and found[0].words == "as" and any(each.kind == "actor" for each in found[1:3]):
         found[0] = replace(found[0], kind="link", value="when")  # "as the ego turns left, ..."
     another = {each for each in found if (each.kind, each.value) == ("det", "a") and len(each.text) > 2}
     for at, (before, each) in enumerate(pairwise(found), 1):
+        if before.text == "in" and (each.kind == "bound" or each.amount is not None):
+            found[at - 1] = replace(before, kind="side", value="in")  # "brakes to a stop in 4 s"
         if each.words == "there" and before.kind in ("deed", "event", "standstill", "state", "amount"):
             found[at] = replace(each, kind="there")  # "stops there": where that is, nothing here knows
         meant = (before.words, each.kind) in (("having", "deed"), ("having", "event"), ("left", "area"))

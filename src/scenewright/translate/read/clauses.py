@@ -36,7 +36,7 @@ _DIMENSIONS: dict[str, Dimension] = {
     "speed": "speed", "gap": "length", "bumper-to-bumper gap": "length", "headway": "time", "time to collision": "time",
     "time to arrival": "time", "rate": "acceleration", "acceleration": "acceleration", "deceleration": "acceleration",
 }  # fmt: skip
-_AT, _FOLLOWS = ("side", "at"), ("follow", "trail", "tail", "lead", "drive", "drove")
+_FOLLOWS = ("follow", "trail", "tail", "lead", "drive", "drove")
 _INITIAL = (("at", "link", "start"), ("with", "link", "start"))  # "with an initial speed of"
 
 
@@ -152,12 +152,9 @@ class Taken:
     def take(self, chunk: Chunk) -> None:
         """Take the chunk at `at`, and those behind it that belong to it."""
         clause, value, reaches = self.clause, chunk.value, bool(self.states & {"pass", "reach"})
+        either = self.people.either(self.subject)
         match chunk.kind:
-            case "pronoun" if (
-                (value, self.peek()[0]) == ("its", "quantity")
-                and clause.subject is None
-                and self.people.either(self.subject)
-            ):
+            case "pronoun" if (value, self.peek()[0]) == ("its", "quantity") and clause.subject is None and either:
                 clause.subject = self.people.who(chunk, is_either=True)
             case "pronoun" if value == "it" and reaches:
                 self.targets.append(Target(self.at, "at", chunk, self.people.where(chunk)))
@@ -170,7 +167,7 @@ class Taken:
             case "actor" | "pronoun" | "name" | "relative" if clause.subject is None:
                 kinds = {each.kind for each in self.chunks}
                 acts = "deed" in kinds or ("turn" in kinds and "mood" not in kinds)
-                either = not acts and self.people.either(self.subject)
+                either &= not acts or self.subject in self.people.acting
                 clause.subject, self.subject_at = self.people.who(chunk, acts, either), self.at
                 clause.notes |= {"relative"} if chunk.kind == "relative" else set()
             case "quality" if chunk.text.lower() == "first" and self.peek()[0] in ("deed", "phase"):
@@ -216,8 +213,6 @@ class Taken:
                 self.targets.append(Target(self.at, value, chunk))
             case "relation":
                 clause.relations.append(st.Relation(value, EGO, chunk.quote))
-            case "state" if chunk.text.lower().endswith("ing") and self._is_of_another(1) and self.peek() == _AT:
-                raise self.left_over(chunk)  # "behind the hero driving at 12 m/s"
             case "state" | "event":
                 may = value == "pass" and (chunk.text.lower().startswith(_REACHES) or chunk.text.endswith(" point"))
                 self.states.add("reach" if may else value)
@@ -235,16 +230,21 @@ class Taken:
 
     def _is_at_it(self, value: str) -> bool:
         """Whether what follows "is" or "has" began before: "has braked", "has been driving", "is braking"."""
-        following = next(iter(self.chunks[self.at + 1 :]), None)
-        if following is None or value == "has":
-            return following is not None and (following.kind in ("deed", "event", "state") or following.words == "been")
+        following = self.chunks[min(self.at + 1, len(self.chunks) - 1)]
+        did = following.kind in ("deed", "event", "state") or following.words == "been"
         changes = following.value in (st.Verb.BRAKE, st.Verb.SPEED_UP)
-        return value == "is" and following.kind == "deed" and changes and following.words.split()[0].endswith("ing")
+        return did if value == "has" else value == "is" and changes and following.words.split()[0].endswith("ing")
 
-    def _is_of_another(self, back: int) -> bool:
-        """Whether what stands so far back is somebody that the clause is not about."""
-        at = self.at - back
-        return at >= 0 and self.chunks[at].kind in ("actor", "name") and at != self.subject_at
+    def _may_be_of_another(self) -> bool:
+        """Whether this is said right behind somebody else, and no way of driving says whose it is."""
+        moves = self.clause.deed is not None or "drives" in self.states
+        moves |= any(each.kind == "side" and each.words.startswith(_FOLLOWS) for each in self.chunks)  # "follows it"
+        kinds = ("side", "bound", "amount", "quantity")
+        at = next((at for at in range(self.at - 1, 0, -1) if self.chunks[at].kind not in kinds), 0)
+        is_other = self.chunks[at].kind in ("actor", "name") and at not in (self.subject_at, self.at - 1)
+        fast, own = self.chunks[self.at].dimension == "speed", self.clause.subject is not None
+        apart = not fast and "," in self.people.text[self.chunks[at].end : self.chunks[self.at].start]
+        return is_other and not (moves or apart) and (own or self.subject is not None)
 
     def _says_no_more(self, chunk: Chunk) -> bool:
         """Whether a chunk is taken with its neighbours, or says here what they say."""
@@ -268,9 +268,8 @@ class Taken:
         if kind != "bound":
             return "=="
         amount = self.chunks[self.at]
-        if value == "falls":
-            self.clause.flags.add("falls")
-        far = amount.amount is not None and amount.amount.dimension == "length"
+        self.clause.flags |= {value} & {"falls"}
+        far = amount.dimension == "length"
         if far and self.clause.deed == st.Verb.DRIVE and self.chunks[self.at - 1].words == "up to":
             self.clause.flags.add("to there")  # "drives on up to 5 m before it"
             return "=="
@@ -282,10 +281,8 @@ class Taken:
         return OPERATORS.get(value, "==")
 
     def _amount(self, chunk: Chunk) -> None:
-        fast = chunk.amount is not None and chunk.amount.dimension == "speed" and self.peek(-1) == ("side", "at")
-        moves = self.clause.deed is not None or "drives" in self.states
-        moves |= any(each.kind == "side" and each.words.startswith(_FOLLOWS) for each in self.chunks)  # "follows it"
-        if fast and self._is_of_another(2) and self.clause.subject is not None and not moves:
+        fast = chunk.dimension == "speed"
+        if fast and self._may_be_of_another():
             raise self.left_over(chunk)  # "slower than the ego at 15 m/s"
         turns = any(each.kind == "turn" and each.value != "straight" for each in self.chunks[: self.at])
         self.clause.notes |= {"comes"} if fast and turns and not {"drives", "goes"} & self.states else set()
@@ -316,8 +313,8 @@ class Taken:
 
     def _side(self, chunk: Chunk) -> None:
         side, (kind, value) = chunk.value, self.peek()
-        before = self.chunks[self.at - 1].amount if self.at else None
-        if before is not None and before.dimension == "speed" and side in _SIDES and kind in ("place", *PEOPLE):
+        is_fast = self.at > 0 and self.chunks[self.at - 1].dimension == "speed"
+        if is_fast and side in _SIDES and kind in ("place", *PEOPLE):
             raise self.left_over(chunk)  # "12 m/s before the stop line"
         if side in ("across", "to") and kind in PEOPLE and (side == "across" or "yields" in self.clause.flags):
             self.at += 1  # "turns left across the ego's path", "yields to the ego"
@@ -348,8 +345,8 @@ class Taken:
 
     def _is_far(self) -> bool:
         """Whether the next amount is one of a place: how far, or how long, from there."""
-        amounts = (each.amount for each in self.chunks[self.at + 1 : self.at + 5] if each.amount is not None)
-        return next((each.dimension in ("length", "time") for each in amounts), False)
+        told = (each.dimension for each in self.chunks[self.at + 1 : self.at + 5] if each.dimension)
+        return next(told, "") in ("length", "time")
 
     def _between(self, chunk: Chunk) -> None:
         """Take "between them", "between the ego and the hero", "of the ego and the hero", or "of the ego" alone."""
@@ -380,6 +377,8 @@ class Taken:
         if chunk.kind == "pronoun":  # who somebody is ahead of or behind, else the place that was spoken of last
             target.place = None if side in ("ahead", "behind") else self.people.where(chunk)
         elif chunk.kind == "place":
+            if self._may_be_of_another():
+                raise self.left_over(chunk)  # "20 m behind the van at the stop line"
             target.place = self._place(chunk)
         else:
             who = self.people.who(chunk)
@@ -412,9 +411,10 @@ class Taken:
         op, amount = self.bound(), None
         if chunk.value != "as fast as":
             op = ">" if chunk.value == "faster" else "<"
-            if self.amounts and self.amounts[-1][0] == self.at - 1:
-                _, op, before = self.amounts.pop()
-                amount = before.amount
+            apart = "," in self.people.text[self.chunks[self.at - 1].end : chunk.start]  # "at 15 m/s, faster than it"
+            if self.amounts and self.amounts[-1][0] == self.at - 1 and not apart:
+                _, op, told = self.amounts.pop()
+                amount = told.amount
             self.at += 1
         if self.peek()[0] not in ("actor", "name"):
             raise self.left_over(chunk)
@@ -440,8 +440,8 @@ class Taken:
 
     def way(self, chunk: Chunk) -> None:
         """Take a chunk that says how somebody drives, with what belongs to it."""
-        facts = self.clause.facts
-        if chunk.kind == "heading" and self.peek(-1)[1] == "then" and self.peek(-2)[0] == "heading":
+        facts, before = self.clause.facts, self.peek(-1)[1]
+        if chunk.kind == "heading" and before == "then" and self.peek(-2)[0] == "heading":
             facts["headings"] = facts.get("headings", facts.pop("heading", "")) + chunk.value  # "north, then south"
         elif chunk.kind == "heading":
             self.headed(chunk)
@@ -451,8 +451,8 @@ class Taken:
             self.clause.notes.add("origin")
         elif chunk.kind == "origin" or (chunk.kind == "then_headed" and self.peek()[0] != "heading"):
             raise self.left_over(chunk)
-        elif (chunk.words[:3] == "to " and "origin" not in facts) or (self.clause.deed and self.peek(-1)[1] == "to"):
-            raise self.left_over(chunk)  # "leaves the road to the left", not "is to the left"; "brakes to turn right"
+        elif (chunk.words[:3] == "to " and "origin" not in facts) or before == ("to" if self.clause.deed else "has"):
+            raise self.left_over(chunk)  # not "is to the left", "brakes to turn right" or "has just turned right"
         else:
             if chunk.text.lower().split()[0] in ("turning", "making", "taking"):
                 self.clause.notes.add("wanted")

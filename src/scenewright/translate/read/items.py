@@ -180,9 +180,10 @@ def plainly(chunks: list[Chunk]) -> list[Chunk]:
     found = list[Chunk]()
     for number, chunk in enumerate(chunks):
         last, following = chunks[max(number - 1, 0)].kind, next(iter(chunks[number + 1 :]), chunk)
-        fast = following.amount is not None and following.amount.dimension == "speed"
-        if chunk.words == "stopped" and (following.kind in PEOPLE or last == "comma"):
-            found.append(replace(chunk, kind="state", value="stands"))  # "a stopped bus", "the car, stopped 5 m before"
+        fast = following.dimension == "speed"
+        rests = following.kind in PEOPLE or last == "comma" or chunks[number - 1].value == "is"  # "a stopped bus"
+        if chunk.words == "stopped" and rests:  # "the car, stopped 5 m before it", "is still stopped"
+            found.append(replace(chunk, kind="state", value="stands"))
         elif chunk.words in ("through", "across") and (last, following.value) == ("turn", "intersection"):
             found.append(replace(chunk, value="at"))  # "goes straight through the intersection"
         elif chunk.words == "down to" and fast and any(each.kind == "deed" for each in found):
@@ -205,7 +206,7 @@ def _does_more(chunk: Chunk, following: Chunk) -> bool:
 def tail_of(chunks: list[Chunk]) -> tuple[list[Chunk], list[Chunk]]:
     """Part a moment behind a deed from what is done besides: "brakes when the ego is ... and stops 5 m before ..."."""
     for at, (chunk, following) in enumerate(pairwise(chunks)):
-        dimension = "" if following.amount is None else following.amount.dimension
+        dimension = following.dimension
         named = following.kind == "quantity" and following.value in ("rate", "deceleration", "acceleration")
         besides = at > 0 and chunks[at - 1].kind == "comma"
         how = chunk.kind == "side" and chunk.value in ("at", "with") and (named or dimension == "acceleration")
@@ -232,7 +233,7 @@ def _who_acts(parts: Sequence[Sequence[Chunk]]) -> int:
     """Return which of the parts between commas begins what happens: it begins with who does it, if anybody is named."""
     acts = [number for number, part in enumerate(parts) if any(chunk.kind in _ACTS for chunk in part)]
     names = [number for number, part in enumerate(parts) if _is_named(part)]
-    first = next(iter(acts), len(parts) - 1)
+    first = next(iter(acts), [len(parts) - 1, *names][-1])  # "..., the van passes the stop line, driving at 5 m/s"
     before = takewhile(lambda each: each.kind not in _ACTS, parts[first])
     if not acts or any(each.kind in PEOPLE for each in before):
         return first
@@ -344,6 +345,8 @@ class _Items:
     def _clause(self, inside: tuple[str, ...]) -> Clause:
         subjects = self._subjects()
         start = self.at
+        if [each.kind for each in self.chunks[max(start - 2, 0) : start + 1]] == ["pronoun", "comma", "relative"]:
+            self.people.refuse("it is not clear of whom this is", self.chunks[start].quote, "say who")
         while self.at < len(self.chunks):
             chunk = self.chunks[self.at]
             parts = chunk.kind == "comma" or (chunk.kind == "joint" and chunk.value in ("and", "or"))
@@ -381,9 +384,8 @@ class _Items:
     def _to_come(self, last: Chunk) -> Sequence[Chunk]:
         """Return what the next clause counts its amount to: "the ego is 3 s and the hero 4 s from it"."""
         following = [each for each in self.chunks[self.at :] if each.kind not in ("be", "bound")]
-        amounts = [each.amount for each in (last, *following[2:3]) if each.amount is not None]
         kinds = [each.kind for each in following[1:4]]
-        same = len(amounts) == 2 and amounts[0].dimension == amounts[1].dimension
+        same = [each.dimension for each in following[2:3]] == [last.dimension]
         if not same or following[0].value != "and" or kinds[0] not in PEOPLE or kinds[1:] != ["amount", "side"]:
             return []
         return [*takewhile(lambda each: each.kind not in ("comma", "joint", "link"), following[3:])]
@@ -411,8 +413,7 @@ class _Items:
         """Whether it is said here how somebody else is: "with the ego 20 m behind it"."""
         opens, *following = self.chunks[self.at : self.at + 4]
         far = [each.kind for each in following] in ([who, "amount", "side"] for who in PEOPLE)
-        length = far and following[1].amount is not None and following[1].amount.dimension == "length"
-        return length and (opens.kind, opens.value) == ("side", "with")
+        return far and following[1].dimension == "length" and (opens.kind, opens.value) == ("side", "with")
 
     def _is_fronted(self, start: int) -> bool:
         """Whether what stands before this comma is of whom is named after it: "Behind it, the ego drives"."""

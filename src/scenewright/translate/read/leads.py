@@ -72,18 +72,14 @@ def _delay_of(chunks: Sequence[Chunk]) -> tuple[Margin | None, Sequence[Chunk]]:
 
 
 def same_time(story: Narrative, pending: int | None, words: Set[str]) -> int | None:
-    """Return the moment of what was told last: the one that waits for what happens, or when a deed began.
-
-    "At that moment" may be at its end, where that was told.
-    """
+    """Return the moment of what was told last: what waits for what happens, or a deed's beginning, or end ("that")."""
     if pending is not None or not story.doings:
         return pending
     last = story.doings[-1]
     if "that" in words and (last.ends is not None or last.rests):
         name, (_, begin, finish) = story.actor(last.actor).name, DOES[last.verb]
         ways = [f"when {name} begins to {begin}", f"when {name} finishes {finish}"]
-        asked = f"When is this: {story.quote.text}"
-        if story.ask(f"moment {story.quote.start}", asked, ways, 0, story.quote) == ways[1]:
+        if not story.is_first("moment", "When is this", ways, story.quote):
             return story.finish(last)
     return last.begins
 
@@ -102,8 +98,7 @@ def told_before(story: Narrative, clause: Clause) -> Doing | None:
     closed = own.verb == st.Verb.DRIVE and own.ends is not None and own.begins != st.START
     if (own.turns or closed) and verb in CHANGES and not clause.says_more_than("deed", "rates"):
         ways = ["after its turn", "while it turns"] if own.turns else ["after that", "meanwhile"]
-        asked = f"When is this: {clause.quote.text}"
-        if story.ask(f"turn {clause.quote.start}", asked, ways, 0, clause.quote) == ways[1]:
+        if not story.is_first("turn", "When is this", ways, clause.quote):
             own.verb = verb or own.verb
             return own
     is_open = own.ends is None and not own.rests and own.verb in (st.Verb.DRIVE, st.Verb.SPEED_UP)
@@ -122,7 +117,11 @@ def moment_led_to(story: Narrative, clause: Clause, leads: Leads, pending: int |
             story.refuse("it is not clear at the same time as what", fix="begin it with 'When ...,'")
         return same_time(story, None, words)
     own = last_of(story, clause.subject)
-    if leads.own and not _did(own, leads.own):
+    if "meanwhile" in words and own is not None and own is last:
+        story.refuse("two deeds at one time are told of one")
+    stops = own is not None and (own.rests or own.verb == st.Verb.STAND or own.ends is not None)
+    did = own is not None and (stops if leads.own == "stop" else own.verb == leads.own)
+    if leads.own and not (did or leads.own in _TURNS):
         story.refuse("it was not told that it did this before")
     is_new = last is not None and own is None and not is_tied
     follows = last is not None and (last is not own or story.since is not None) and not leads.own
@@ -141,14 +140,6 @@ def moment_led_to(story: Narrative, clause: Clause, leads: Leads, pending: int |
     return None
 
 
-def _did(own: Doing | None, deed: str) -> bool:
-    """Whether somebody's last deed is the one that "after stopping" and the like speak of."""
-    if deed in _TURNS:
-        return True
-    stops = own is not None and (own.rests or own.verb == st.Verb.STAND or own.ends is not None)
-    return own is not None and (stops if deed == "stop" else own.verb == deed)
-
-
 def _after(story: Narrative, last: Doing | None, clause: Clause, leads: Leads) -> int | None:
     """Return the moment that "then" and "2 s later" count from: the end of a deed, or its beginning; None: its own."""
     if last is None:
@@ -160,8 +151,7 @@ def _after(story: Narrative, last: Doing | None, clause: Clause, leads: Leads) -
         ways[f"after {story.actor(last.actor).name} finishes {DOES[last.verb][2]}"] = last, True
     ways[f"after {story.actor(last.actor).name} begins to {DOES[last.verb][1]}"] = last, False
     # How much later somebody else reacts is told from what it may see first.
-    reacts = leads.delay is not None and last.actor != clause.subject and not last.lasts
-    default = len(ways) - 1 if reacts else 0
+    default = len(ways) - 1 if leads.delay is not None and last.actor != clause.subject and not last.lasts else 0
     own = last_of(story, clause.subject)
     if own is not None and own is not last:
         ways[f"after {story.actor(own.actor).name} finishes {DOES[own.verb][2]}, whatever others do"] = own, True
@@ -188,8 +178,7 @@ def told_moment(story: Narrative, segment: Segment) -> list[Clause]:
         clause.notes -= {"has"}
     if all(each.op != "==" for each in measures):
         if len(measures) > 1:
-            fix = "say one of them exactly, as in '20 m'"
-            story.refuse("it is not clear which of these comes to be so then", fix=fix)
+            story.refuse("it is not clear which of these comes to be so then", fix="say one exactly, as in '20 m'")
         for clause in when:
             clause.measures = [replace(each, op="==") for each in clause.measures if each in measures]
     return when
@@ -206,9 +195,7 @@ def all_the_while(story: Narrative, when: list[Clause]) -> list[st.Condition]:
     if any(clause.is_event for clause in when):
         story.refuse("it is not clear how long this is so", fix="say from when until when, or 'When ...'")
     ways = ["all the while", "when it begins"]
-    asked = f"How long is this so: {story.quote.text}"
-    keeps = moving and story.ask(f"while {story.quote.start}", asked, ways, 0, story.quote) == ways[0]
-    return moving if keeps else []
+    return moving if moving and story.is_first("while", "How long is this so", ways, story.quote) else []
 
 
 def is_of_who_acts(story: Narrative, main: Sequence[Chunk], tail: Sequence[Chunk]) -> bool:
@@ -223,13 +210,5 @@ def is_of_who_acts(story: Narrative, main: Sequence[Chunk], tail: Sequence[Chunk
     stops = any(each.kind == "standstill" or each.value == "stop" for each in main)
     ways = ["of who acts", "of whom the moment is"]
     asked = f"Of whom is '{does.text}': {story.quote.text}"
-    return (
-        not (stops and does.kind == "event") and story.ask(f"whose {does.start}", asked, ways, 0, does.quote) == ways[0]
-    )
-
-
-def is_of_its_begin(story: Narrative, clause: Clause, *, at_first: bool) -> bool:
-    """Ask whether a deed that is told to be so long before or after something begins then, or is over then."""
-    ways, asked = ["when that begins", "when that is over"], f"When is this: {clause.quote.text}"
-    default = 0 if at_first else 1
-    return story.ask(f"dated {clause.quote.start}", asked, ways, default, clause.quote) == ways[0]
+    passes = stops and does.kind == "event"
+    return not passes and story.ask(f"whose {does.start}", asked, ways, 0, does.quote) == ways[0]

@@ -111,8 +111,7 @@ class Narrative(Cast):
             return True
         quote = self.moments[moment].quote or self.quote
         later, either = "it comes after the ego's moments that were told before", "it may come before or after them"
-        asked = f"How does this moment lie to the ego's others: {quote.text}"
-        return self.ask(f"ego {quote.start}", asked, [either, later], 0, quote) == later
+        return not self.is_first("ego", "How does this moment lie to the ego's others", [either, later], quote)
 
     def settle(self) -> None:
         """Refuse a moment of which it was to be said what happens then, and was not."""
@@ -203,7 +202,8 @@ class Narrative(Cast):
                 self.refuse("this is no condition", item.quote, "say where it is then, or what it passes")
             if wish or (item.facts.get("turn", "straight") == "straight" and not item.relations):
                 self.tell(item)
-            if item.says_more_than("measures", "joined", *taken):
+            meant = {"wanted", "event"} <= item.notes  # "is about to pass it": then it has not
+            if meant or item.says_more_than("measures", "joined", *taken):
                 self.refuse("this is no condition", item.quote)
         return [condition for item in items for condition in item.conditions]
 
@@ -250,7 +250,7 @@ class Narrative(Cast):
             doing = self.doing_of(clause)
             if doing is None or clause.says_more_than("deed", "phase", "ordinal", "times"):
                 self.refuse("nothing was told of this deed before", clause.quote)
-            if clause.phase != "finishes" and clause.deed != "stop":
+            if clause.phase != "finishes" and clause.deed != "stop" and "has" not in clause.notes:
                 return doing.begins
             return self.finish(doing)
         if not clause.measures or clause.says_more_than("measures", "times"):
@@ -292,10 +292,16 @@ class Narrative(Cast):
                     for each in self.doings)  # fmt: skip
         return stood or st.standstill(doing.actor) in self.moments[doing.begins].conditions
 
+    def passes_nothing(self, actor: int, items: Sequence[Clause], said: set[str]) -> None:
+        """Refuse an event of who stands: that is of somebody else."""
+        if passes := [each.quote for each in items if each.subject == actor and said <= each.notes]:
+            self.refuse("who stands passes nothing", passes[0], "say who it is that does")
+
     def begin(self, actor: int, verb: str, moment: int | None, leads: set[str]) -> Doing:
         """Let somebody begin a deed at a moment, or where the last one ended."""
         if actor == EGO:
             self.refuse("the ego is driven by the policy under test: say what the others do")
+        self.acting.add(actor)
         before, self.since = next((doing for doing in reversed(self.doings) if doing.actor == actor), None), None
         if before is None:
             moment = self.new_moment() if moment is None and "then" in leads else moment
@@ -315,11 +321,10 @@ class Narrative(Cast):
     def _go_on(self, before: Doing, verb: str, moment: int | None, leads: set[str]) -> int:
         """Return where a deed begins after one whose end is known; what lies between is standing or driving on."""
         goes_on = verb == st.Verb.BRAKE or "passes" in leads  # who stands does neither
-        if before.rests and before.ends is None and goes_on:
-            ways = ["for a while", "to a standstill"]
-            quote = before.quote or self.quote
-            asked = f"How far does {self.actor(before.actor).name} brake: {quote.text}"
-            before.rests = self.ask(f"rests {quote.start}", asked, ways, 0, quote) == ways[1]
+        is_open = before.rests and before.ends is None and goes_on
+        if is_open:
+            ways, asked = ["for a while", "to a standstill"], f"How far does {self.actor(before.actor).name} brake"
+            before.rests = not self.is_first("rests", asked, ways, before.quote or self.quote)
         ended = self.finish(before)
         stands = st.standstill(before.actor) in self.moments[ended].conditions
         sets_off = verb in (st.Verb.DRIVE, st.Verb.SPEED_UP) and before.verb != st.Verb.STAND
@@ -328,6 +333,8 @@ class Narrative(Cast):
         waits |= "apart" in leads and not (stands and verb == st.Verb.STAND)
         if moment == ended or (moment is None and not waits):
             return ended
+        if stands and verb == st.Verb.BRAKE and not is_open:
+            self.refuse("who stands does not brake", fix="say what it does in between, or who brakes")
         between = Doing(before.actor, st.Verb.STAND if stands else st.Verb.DRIVE, ended, quote=before.quote)
         between.ends = self.new_moment() if moment is None else moment
         self.doings.append(between)

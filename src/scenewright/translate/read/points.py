@@ -62,8 +62,7 @@ def read_hold(story: Narrative, chunks: list[Chunk], how: Chunk) -> None:
     until = links.index("until")
     start = point_of(story, chunks[1:until])
     end = point_of(story, [each for each in chunks[until + 1 : at] if each.kind != "comma"])
-    held = [each for each in chunks[at + 1 :] if each.text != ":"]
-    items = items_of(story, held)
+    items = items_of(story, [each for each in chunks[at + 1 :] if each.text != ":"])
     conditions = story.conditions(items)
     if len(items) != 1 or not conditions:
         story.refuse("one condition holds all the while", fix="write a sentence for each")
