@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from scenewright.roads import all_routes, load_map
+from scenewright.roads import all_routes, find_route, load_map
 from scenewright.roads.polyline import polyline_arc_lengths
 
 from .conftest import OURS, READABLE, any_map
@@ -46,6 +46,28 @@ def test_limits_come_in_every_unit() -> None:
     assert town.lanes["1.0.1"].speed_limit_mps == pytest.approx(25 * 0.44704)
     simple = any_map("esmini/simple_3way_intersection")
     assert all(lane.speed_limit_mps == pytest.approx(10.0) for lane in simple.lanes.values())
+
+
+IN_ROAD = '<type s="100" type="town"><speed max="30" unit="km/h"/></type>\n    <planView>'
+IN_LANES = '<speed sOffset="100" max="30" unit="km/h"/></lane>'
+
+
+@pytest.mark.parametrize(("mark", "count", "told"), [("<planView>", 1, IN_ROAD), ("</lane>", 3, IN_LANES)])
+def test_a_limit_holds_from_where_it_stands(tmp_path: Path, mark: str, count: int, told: str) -> None:
+    """On the west arm, for whoever drives along it and for whoever comes the other way; nothing else changes."""
+    source = tmp_path / "zone.xodr"
+    source.write_text(OURS.replace(mark, told, count), encoding="utf-8")
+    before, now = load_map("t_intersection"), load_map(source)
+    for number in (1, -1):
+        lanes = [now.lanes[f"1.{section}.{number}"] for section in (0, 1)]
+        assert [lane.length_m for lane in lanes] == pytest.approx([100.0, 200.0])
+        assert [lane.speed_limit_mps for lane in lanes] == pytest.approx([50 / 3.6, 30 / 3.6])
+    assert {name for name in now.lanes if not name.startswith("1.1.")} == before.lanes.keys()
+    for headings in (("E",), ("W",), ("E", "N"), ("S", "W")):
+        old, new = (find_route(road_map, headings=headings) for road_map in (before, now))
+        along = np.linspace(0.0, old.landmarks["route_end"], 300)
+        assert np.allclose(old.path.poses(along), new.path.poses(along), atol=1e-3)
+        assert new.landmarks == pytest.approx(old.landmarks, abs=1e-3)
 
 
 def test_stop_lines_of_other_people_are_found() -> None:

@@ -6,12 +6,16 @@ evaluated. Nothing here links lanes or chooses driving lanes.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
 from scenewright.roads.polyline import FloatArray
 from scenewright.roads.reference_line import Geometry
+
+_SAME_PLACE_M = 1e-6
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +44,10 @@ def evaluate_cubics(cubics: tuple[Cubic, ...], s_m: FloatArray) -> FloatArray:
 
 @dataclass(frozen=True, slots=True)
 class LaneRecord:
-    """A lane of a section; `widths` starts at the section's start, negative ids lie right of the reference line."""
+    """A lane of a section; `widths` starts at the section's start, negative ids lie right of the reference line.
+
+    `speeds` are speed limits (m/s; None where there is none of its own), each from so far behind that start on.
+    """
 
     number: int
     type: str
@@ -48,8 +55,22 @@ class LaneRecord:
     borders: tuple[Cubic, ...]
     predecessor: int | None
     successor: int | None
-    speed_limit_mps: float | None
+    speeds: tuple[tuple[float, float | None], ...]
     line: int
+
+    @property
+    def speed_limit_mps(self) -> float | None:
+        """The limit where its section starts."""
+        return next((limit for start_m, limit in reversed(self.speeds) if start_m <= _SAME_PLACE_M), None)
+
+    def behind(self, ahead_m: float) -> LaneRecord:
+        """Return the same lane of a section that starts so much later, in the same lane section."""
+        widths, borders = (
+            tuple(replace(each, start_m=each.start_m - ahead_m) for each in cubics)
+            for cubics in (self.widths, self.borders)
+        )
+        speeds = tuple((start_m - ahead_m, limit) for start_m, limit in self.speeds)
+        return replace(self, widths=widths, borders=borders, speeds=speeds, predecessor=self.number)
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,6 +81,17 @@ class SectionRecord:
     end_m: float
     lanes: tuple[LaneRecord, ...]
     line: int
+
+    def parts(self, places_m: Iterable[float]) -> Iterator[SectionRecord]:
+        """Yield it in sections in each of which a lane has one speed limit, cut at these places of its road, too."""
+        own_m = (self.start_m + start_m for lane in self.lanes for start_m, _ in lane.speeds)
+        cuts_m = sorted({s for s in (*places_m, *own_m) if self.start_m + _SAME_PLACE_M < s < self.end_m})
+        for start_m, end_m in pairwise((self.start_m, *cuts_m, self.end_m)):
+            later_m = start_m - self.start_m
+            lanes = [lane.behind(later_m) if later_m else lane for lane in self.lanes]
+            if end_m != self.end_m:
+                lanes = [replace(lane, successor=lane.number) for lane in lanes]
+            yield replace(self, start_m=start_m, end_m=end_m, lanes=tuple(lanes))
 
 
 @dataclass(frozen=True, slots=True)

@@ -190,7 +190,8 @@ class _FileReader:
     def road(self, at: Element) -> RoadRecord:
         length = self.length(at)
         junction = at.get("junction", "-1")
-        lanes = self.child(at, "lanes")
+        lanes, types = self.child(at, "lanes"), self.types(at)
+        found, changes_m = self.sections(lanes, length, self.text(at, "id")), [each.start_m for each in types]
         link = at.find("link")
         return RoadRecord(
             id=self.text(at, "id"),
@@ -200,8 +201,8 @@ class _FileReader:
             right_hand=at.get("rule", "RHT") != "LHT",
             geometries=self.plan_view(at, length),
             lane_offsets=self.cubics(lanes, "laneOffset", "s"),
-            sections=self.sections(lanes, length, self.text(at, "id")),
-            types=self.types(at),
+            sections=tuple(each for section in found for each in section.parts(changes_m)),
+            types=types,
             predecessor=None if link is None else self.road_link(link.find("predecessor")),
             successor=None if link is None else self.road_link(link.find("successor")),
             stop_lines=self.stop_lines(at),
@@ -300,7 +301,7 @@ class _FileReader:
                 fix="correct the lane's id",
             )
         link = at.find("link")
-        speed = at.find("speed")
+        speeds = [(self.number(each, "sOffset", 0.0), self.speed_limit(each)) for each in at.findall("speed")]
         return LaneRecord(
             number=number,
             type=at.get("type", "none"),
@@ -308,7 +309,7 @@ class _FileReader:
             borders=self.cubics(at, "border", "sOffset"),
             predecessor=None if link is None else self.lane_link(link, "predecessor", number),
             successor=None if link is None else self.lane_link(link, "successor", number),
-            speed_limit_mps=None if speed is None else self.speed_limit(speed),
+            speeds=tuple(sorted(speeds, key=lambda each: each[0])),
             line=at.sourceline or 0,
         )
 
