@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import re
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -173,6 +174,16 @@ def test_a_manifest_without_map_or_routes_leaves_nothing_out(tmp_path: Path, cha
     verdict = judge_run_directory(edited(write_run(tmp_path / "run", BRAKES), **changes))
     assert {"route_ego_map", "route_hero_map"} <= failed(verdict, LOOSE)
     assert why in verdict.condition("route_hero_map").text
+
+
+def test_another_route_than_the_program_asks_for_is_not_the_one_that_was_driven(tmp_path: Path) -> None:
+    run = write_run(tmp_path / "run", BRAKES)
+    text = (run / "program.scene").read_text(encoding="utf-8")
+    head, hero = text.split("Actor 1")
+    (run / "program.scene").write_text(f"{head}Actor 1{re.sub('- [A-Z, ]+', '- N', hero, count=1)}", encoding="utf-8")
+    verdict = judge_run_directory(run)
+    assert failed(verdict, LOOSE) == {"route_hero_map", "route_hero_directions"}
+    assert "has no such route" in verdict.condition("route_hero_map").text
 
 
 @pytest.mark.parametrize("content", ["", "{", "[]", '{"gap_m": {"value": "x", "unit": "m"}}'])

@@ -69,6 +69,8 @@ def with_ego(change: Callable[[ActorTrace], ActorTrace], paths: Mapping[str, Pat
         (teleporting, {"kin_ego_position_drift", "kin_ego_map_drift"}),
         (sliding_on_the_map, {"kin_ego_map_drift"}),
         (lambda ego: replace(ego, speed_mps=ego.speed_mps + from_sample(ego, 600, 0.4)), {"kin_ego_speed_jump"}),
+        (lambda ego: replace(ego, accel_mps2=0 * ego.accel_mps2), {"kin_ego_speed_jump"}),
+        (lambda ego: replace(ego, accel_mps2=ego.accel_mps2 - 0.5), {"kin_ego_speed_jump"}),
         (lambda ego: replace(ego, speed_mps=2 * ego.speed_mps), {"kin_ego_position_drift", "kin_ego_map_drift"}),
         (lambda ego: replace(ego, speed_mps=0 * ego.speed_mps), {"kin_ego_position_drift", "kin_ego_map_drift"}),
     ],

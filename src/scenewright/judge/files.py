@@ -20,7 +20,7 @@ from scenewright.judge.case import Box, Case, Limits, PathLike
 from scenewright.judge.judgement import judge
 from scenewright.judge.verdict import Cause, Verdict
 from scenewright.program.text import parse_program
-from scenewright.program.types import Program
+from scenewright.program.types import Actor, Program
 from scenewright.roads.model import RoadMap
 from scenewright.trace.files import TRACE_FILE, read_trace
 from scenewright.units import UNITS
@@ -138,7 +138,7 @@ def read_case(directory: Path) -> Case:
             expected=str(SCHEMA_VERSION),
         )
     program = parse_program(_read_text(directory / "program.scene"), "program.scene")
-    paths, unmapped = _paths(manifest, (actor.name for actor in program.actors))
+    paths, unmapped = _paths(manifest, program.actors)
     parameters = _si_values(_read_model(directory / "params.json", ParametersModel), program, directory)
     return Case(
         program=program,
@@ -157,23 +157,26 @@ def read_case(directory: Path) -> Case:
     )
 
 
-def _paths(manifest: ManifestModel, actors: Iterable[str]) -> tuple[dict[str, PathLike], dict[str, str]]:
+def _paths(manifest: ManifestModel, actors: Iterable[Actor]) -> tuple[dict[str, PathLike], dict[str, str]]:
     """Return the paths of the actors' routes on the map that was driven on, and by actor why there is none."""
-    from scenewright.roads.routes import find_route
+    from scenewright.roads.grounding import query_of
+    from scenewright.roads.routes import find_routes
 
     road_map = _map_driven_on(manifest.map)
     paths: dict[str, PathLike] = {}
     unmapped: dict[str, str] = {}
-    for name in actors:
+    for name, asked in ((actor.name, query_of(actor.route)) for actor in actors):
         if isinstance(road_map, str):
             unmapped[name] = road_map
         elif name not in manifest.routes:
             unmapped[name] = "the manifest names no route of it"
         else:
-            try:
-                paths[name] = find_route(road_map, lanes=manifest.routes[name].lanes).path
-            except MapError:
-                unmapped[name] = "the map has no such route as the manifest names"
+            found = {route.lanes: route.path for route in find_routes(road_map, **asked)}
+            path = found.get(manifest.routes[name].lanes)
+            if path is None:
+                unmapped[name] = "the map has no such route as program and manifest name"
+            else:
+                paths[name] = path
     return paths, unmapped
 
 

@@ -18,6 +18,7 @@ from scenewright.trace.model import ActorTrace
 from scenewright.translate.phrases import called
 from scenewright.units import Dimension
 
+_SUMMED_S = 1.0  # small steps beside what is stated are told from noise over this time
 _TURN_OVER_S = 0.1  # headings are compared over this time, so that rounding in a map is not taken for swerving
 
 
@@ -90,17 +91,20 @@ def _below(name: str, text: str, limit: float, value: float, dimension: Dimensio
 
 
 def _speed_jump(states: ActorTrace) -> float:
-    """Return the largest change of speed in a step (m/s) beyond what the accelerations at its ends explain.
+    """Return by how much the speed changes in a step, or in a second, beyond what accelerations explain (m/s) at most.
 
     A piece may end between two samples: then the mean acceleration lies between the stated ones.
     """
     steps = np.diff(states.time_s)
     if not len(steps):
         return 0.0
-    change = np.diff(states.speed_mps)
+    change, longest = np.diff(states.speed_mps), min(len(steps), max(1, round(_SUMMED_S / float(np.mean(steps)))))
     before, after = states.accel_mps2[:-1] * steps, states.accel_mps2[1:] * steps
-    beyond = np.maximum(change - np.maximum(before, after), np.minimum(before, after) - change)
-    return max(0.0, float(beyond.max()))
+    worst = 0.0
+    for beyond in (change - np.maximum(before, after), np.minimum(before, after) - change):
+        summed = np.append(0.0, np.cumsum(beyond))
+        worst = max(worst, *(float(np.max(summed[count:] - summed[:-count])) for count in (1, longest)))
+    return worst
 
 
 def _position_drift(case: Case, actor_id: int) -> float:

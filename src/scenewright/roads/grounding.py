@@ -26,10 +26,10 @@ from scenewright.program.expressions import (
     walk,
 )
 from scenewright.program.resolve import resolve, usual_partner
-from scenewright.program.types import Actor, HeadingsRoute, LanesRoute, Parameter, Program
+from scenewright.program.types import Actor, HeadingsRoute, LanesRoute, Parameter, Program, RouteSpec
 from scenewright.roads.conflicts import Conflict, find_conflict, shared_offset_m
 from scenewright.roads.model import RoadMap
-from scenewright.roads.routes import Route, find_route
+from scenewright.roads.routes import Route, RouteQuery, find_route
 from scenewright.units import decimal_fraction
 
 
@@ -168,21 +168,25 @@ def _number(name: str, value: float | str | Fraction) -> Fraction:
         ) from None
 
 
+def query_of(route: RouteSpec) -> RouteQuery:
+    """Return what a program asks of an actor's route, as `find_route` takes it."""
+    match route:
+        case HeadingsRoute(headings=headings):
+            return {"headings": headings}
+        case LanesRoute(lanes=lanes):
+            return {"lanes": lanes}
+    return {
+        "origin_kind": route.origin,
+        "turn": route.turn,
+        "destination_kind": route.destination,
+        "origin_heading": route.origin_heading,
+        "destination_heading": route.destination_heading,
+    }
+
+
 def _route(actor: Actor, road_map: RoadMap) -> Route:
-    spec = actor.route
     try:
-        if isinstance(spec, HeadingsRoute):
-            return find_route(road_map, headings=spec.headings)
-        if isinstance(spec, LanesRoute):
-            return find_route(road_map, lanes=spec.lanes)
-        return find_route(
-            road_map,
-            origin_kind=spec.origin,
-            turn=spec.turn,
-            destination_kind=spec.destination,
-            origin_heading=spec.origin_heading,
-            destination_heading=spec.destination_heading,
-        )
+        return find_route(road_map, **query_of(actor.route))
     except MapError as error:
         error.message = f"{actor.name} (A{actor.id}): {error.message}"
         error.args = (error.message,)
