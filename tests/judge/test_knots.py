@@ -12,6 +12,7 @@ from plays import (
     AHEAD,
     BRAKES,
     CROSSING,
+    GOES_AFTER,
     NOT_YIELDING,
     YIELDS,
     Line,
@@ -301,3 +302,12 @@ def test_a_speed_that_is_not_quite_met_is_not_looked_for_in_a_later_piece() -> N
     verdict = judge(play.case())
     assert failed(verdict, TIGHT) == set()
     assert verdict.facts["knot_times_s"]["hero"]["t2"] == pytest.approx(5.33, abs=0.03)
+
+
+@pytest.mark.parametrize(("before_m", "holds"), [(11.8, True), (12.2, True), (12.8, False)])
+def test_who_stands_from_a_place_on_may_stop_a_little_before_or_behind_it(before_m: float, holds: bool) -> None:
+    """The moment is when it has come to stand, whether or not the program says besides that its speed is zero then."""
+    told = GOES_AFTER.text.replace("A1x(t2) == conflict_point - 12", f"A1x(t2) == conflict_point - {before_m}")
+    for said in (told, told.replace("A1v(t2) == 0\nA1v(stop) == 0\n", "")):
+        verdict = judge(replace(GOES_AFTER, text=said).case())
+        assert failed(verdict, TIGHT) == (set() if holds else {"c4"})

@@ -134,7 +134,7 @@ def _piece(case: Case, measured: Measured, hero: Actor, index: int) -> Iterator[
     if span is None:
         yield unjudged(f"{hero.name}_{name}", "interaction", f"{called(hero.name)} {doing}", "it never came to it")
         return
-    timeline = case.timelines[hero.id]
+    timeline, ends = case.timelines[hero.id], (hero.id, hero.sketch.knots[index + 1])
     if kind in SIGN_OF and not _did(case, measured, hero, index, span):
         reason = f"{called(hero.name)} did not {_VERBS[kind]} then"
         yield unjudged(f"{hero.name}_{name}", "interaction", f"{called(hero.name)} {doing}", reason)
@@ -156,7 +156,7 @@ def _piece(case: Case, measured: Measured, hero: Actor, index: int) -> Iterator[
         )  # fmt: skip
         if set(hero.sketch.pieces[index + 1 : index + 2]) & {PieceKind.GO, PieceKind.ACC}:
             yield _goes_again(case, hero, span)
-    elif kind is PieceKind.DEC and _ends_standing(case, measured, hero, index):
+    elif kind is PieceKind.DEC and demands_standstill(case, ends, measured.moments.knots):
         yield _stands(case, hero, span[0])
 
 
@@ -177,13 +177,6 @@ def _phase_in(case: Case, hero: Actor, index: int, span: Span) -> Phase | None:
     sign = SIGN_OF[hero.sketch.pieces[index]]
     phase = phase_at(case.timelines[hero.id], span[0], sign, case.program.manner)
     return phase if phase is not None and phase.start_s < span[1] else None
-
-
-def _ends_standing(case: Case, measured: Measured, hero: Actor, index: int) -> bool:
-    """Whether the program asks for a standstill at the end of a piece of braking."""
-    pieces = hero.sketch.pieces
-    stop_follows = index + 1 < len(pieces) and pieces[index + 1] is PieceKind.STOP
-    return stop_follows or demands_standstill(case, (hero.id, hero.sketch.knots[index + 1]), measured.moments.knots)
 
 
 def _stands(case: Case, hero: Actor, since_s: float) -> Condition:

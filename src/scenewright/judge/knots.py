@@ -318,8 +318,8 @@ def _defined_time(
         if begins_s is not None and np.isfinite(begins_s):
             return begins_s, "free"
         return _reached_speed(case, part, key, after_s, knots), "free"
-    time_s, relative = _place_time(case, part, key, after_s, knots), any(isinstance(n, Derived) for n in walk(part))
-    if relative:  # it may come to it, and turn just before: where it was met best is where it is judged
+    time_s = _place_time(case, part, key, after_s, knots)
+    if any(isinstance(node, Derived) for node in walk(part)):  # it may turn just before
         return time_s if np.isfinite(time_s) else _nearest_time(case, part, key, after_s, knots), "free"
     if np.isfinite(time_s):
         return time_s, "fixed"
@@ -342,8 +342,10 @@ def _order_at(node: object, key: KnotKey) -> int | None:
 
 
 def demands_standstill(case: Case, key: KnotKey, knots: Mapping[KnotKey, Values]) -> bool:
-    """Whether the program says that the actor's speed is zero at a knot."""
-    return any(_is_standstill(case, part, key, knots) for part in _equalities(case, key, set(knots)))
+    """Whether the actor's speed is to be zero at a knot: it stands from there on, or a constraint says so."""
+    sketch = case.program.actor(key[0]).sketch
+    stands = PieceKind.STOP in sketch.pieces[sketch.knot_index(key[1]) :][:1]
+    return stands or any(_is_standstill(case, part, key, knots) for part in _equalities(case, key, set(knots)))
 
 
 def _is_standstill(case: Case, part: Compare, key: KnotKey, knots: Mapping[KnotKey, Values]) -> bool:
@@ -365,14 +367,12 @@ def _rest_time(case: Case, key: KnotKey, after_s: float) -> float:
     rest = rest_after(timeline, after_s, case.program.manner)
     if rest is not None:
         return rest.start_s
-    later = timeline.instants(after_s, timeline.end_s)
-    return float(later[np.argmin(timeline.speed(later))])
+    return float((later := timeline.instants(after_s, timeline.end_s))[np.argmin(timeline.speed(later))])
 
 
 def _tie_of_standstill(case: Case, key: KnotKey) -> Tie:
     """Return what ties a knot to the beginning of a standstill: who brakes to one is there when it stands."""
-    sketch = case.program.actor(key[0]).sketch
-    index = sketch.knot_index(key[1])
+    index = (sketch := case.program.actor(key[0]).sketch).knot_index(key[1])
     if index > 0 and sketch.pieces[index - 1] in SIGN_OF:
         return "fixed"
     # Who moves as it likes may have stood before, and may stand for longer than the moment.
