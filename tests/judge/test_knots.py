@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -311,3 +312,12 @@ def test_who_stands_from_a_place_on_may_stop_a_little_before_or_behind_it(before
     for said in (told, told.replace("A1v(t2) == 0\nA1v(stop) == 0\n", "")):
         verdict = judge(replace(GOES_AFTER, text=said).case())
         assert failed(verdict, TIGHT) == (set() if holds else {"c4"})
+
+
+@pytest.mark.parametrize("tie", ["A0(t0) == A1(t0)", "A1(t0) == A0(t0)\nA0v(t0) == 8"])
+def test_what_is_one_moment_with_the_start_is_the_start(tie: str) -> None:
+    """All begin together, so to say so moves nothing: the ego comes to be 40 m from there only later."""
+    told = re.sub(r"A0x\(t0\) == .*", f"A0x(t0) == intersection - 40\n{tie}", YIELDS.text)
+    verdict = judge(replace(YIELDS, text=told).case())
+    assert failed(verdict, TIGHT) == {"c1"}
+    assert verdict.facts["knot_times_s"]["ego"]["t0"] == verdict.facts["knot_times_s"]["hero"]["t0"] == 0.0

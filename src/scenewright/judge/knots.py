@@ -97,7 +97,8 @@ def best_instants(case: Case) -> tuple[dict[KnotKey, float], dict[Group, list[Sp
     found = {(actor.id, actor.sketch.knots[0]): case.start_s for actor in case.program.actors}
     several: dict[Group, list[Span]] = {}
     for group in _groups(case):
-        if (chosen := _best_instant(case, group, found)) is not None:
+        at_start = not group.isdisjoint(found)  # everybody's first moment is there
+        if (chosen := (case.start_s, []) if at_start else _best_instant(case, group, found)) is not None:
             found.update(dict.fromkeys(group, chosen[0]))
             several[group] = chosen[1]
     return found, {group: moments for group, moments in several.items() if moments}
@@ -364,8 +365,7 @@ def _is_standstill(case: Case, part: Compare, key: KnotKey, knots: Mapping[KnotK
 def _rest_time(case: Case, key: KnotKey, after_s: float) -> float:
     """Return when a demanded standstill began, or where there is none, when the actor was slowest."""
     timeline = case.timelines[key[0]]
-    rest = rest_after(timeline, after_s, case.program.manner)
-    if rest is not None:
+    if (rest := rest_after(timeline, after_s, case.program.manner)) is not None:
         return rest.start_s
     return float((later := timeline.instants(after_s, timeline.end_s))[np.argmin(timeline.speed(later))])
 
