@@ -100,10 +100,8 @@ def test_what_was_required_and_measured(
     assert condition.error == pytest.approx(error, abs=2e-3)
 
 
-@pytest.mark.parametrize(
-    ("rate", "read"), [("-2.5714", -2.5714), ("2.5714", -2.5714), ("0", 0.0), ("-rate_mpss", -4.0)]
-)
-def test_a_rate_of_slowing_down_may_be_told_without_its_sign(rate: str, read: float) -> None:
+@pytest.mark.parametrize(("rate", "read"), [("-2.5714", -2.5714), ("2.5714", 2.5714), ("0", 0.0), ("-rate_mpss", -4.0)])
+def test_a_rate_of_slowing_down_has_its_sign(rate: str, read: float) -> None:
     condition = told(replace(YIELDS, parameters={"rate_mpss": 4.0}), f"A1a(dec) == {rate}")
     assert condition.required == pytest.approx(read)
     assert condition.measured == pytest.approx(-144.0 / 56.0, abs=1e-3)

@@ -165,10 +165,10 @@ def test_what_makes_sense_passes(line: str) -> None:
     [
         ("A1a(dec) == 0", True),
         ("A1a(dec) == -0.09", True),
-        ("0.09 == A1a(dec)", True),
+        ("-0.09 == A1a(dec)", True),
         ("A1a(dec) == -0.1", False),
         ("A1a(dec) >= -0.05", True),
-        ("A1a(dec) > 0.05", True),
+        ("A1a(dec) > -0.05", True),
         ("-0.05 <= A1a(dec)", True),
         ("A1a(dec) <= -0.05", False),  # or harder
         ("A1a(dec) <= 0", False),
@@ -176,7 +176,7 @@ def test_what_makes_sense_passes(line: str) -> None:
         ("A1a(acc) <= 0.05", True),
         ("A1a(acc) >= 0", False),
         ("A1a(go) == 0", False),
-        ("A1v(t1) == 3 and A1a(dec) == 1 / 20", True),
+        ("A1v(t1) == 3 and A1a(dec) == -1 / 20", True),
         ("A1v(t1) == 3 or A1a(dec) == 0", False),  # it need not be
         ("A1a(dec) == -rate_mpss", False),  # which is not known yet
     ],
@@ -196,6 +196,20 @@ def test_a_rate_that_the_manner_calls_none_is_no_rate_to_ask_for(line: str, refu
             check_values(program, {"rate_mpss": Fraction(1)}, text)
             with pytest.raises(ProgramError, match=r"a rate of 0.05 m/s\^2 is no braking|a rate of -0.05 m/s"):
                 check_values(program, {"rate_mpss": Fraction(1, 20)}, text)
+
+
+@pytest.mark.parametrize(
+    ("line", "fix"),
+    [("A1a(dec) == 2", "-2"), ("2 <= A1a(dec)", "-2"), ("A1a(acc) == -1.5", "1.5"), ("A1a(dec) <= 2", "")],
+)
+def test_decelerations_are_signed(line: str, fix: str) -> None:
+    text = example("W", "t0, go, t1, dec, t2, acc, t3", line)
+    if not fix:
+        check_program(parse_program(text), text)
+        return
+    with pytest.raises(ProgramError, match=r"is no (braking|speeding up)") as caught:
+        check_program(parse_program(text), text)
+    assert caught.value.fix == f"give it its sign: {fix}"
 
 
 def test_a_number_goes_with_any_unit() -> None:

@@ -23,7 +23,6 @@ from scenewright.program.expressions import (
     Formula,
     Knot,
     Landmark,
-    Negate,
     Number,
     PieceRef,
     State,
@@ -32,7 +31,7 @@ from scenewright.program.expressions import (
     walk,
 )
 from scenewright.program.structure import Role, knots_of
-from scenewright.program.types import EGO, Constraint, PieceKind
+from scenewright.program.types import EGO, Constraint
 from scenewright.translate.lines import told_constraints
 
 _KINDS: dict[Role, Kind] = {
@@ -72,7 +71,7 @@ def _rests_on(moments: Moments, formula: Formula) -> Iterator[object]:
 
 def _judge(case: Case, measured: Measured, constraint: Constraint, text: str) -> Condition:
     kind = _KINDS[case.structure.roles[constraint.id]]
-    formula = signed_rate(case, constraint.formula, measured.moments)
+    formula = constraint.formula
     try:
         if isinstance(formula, Compare):
             return _comparison(case, measured.moments, constraint.id, kind, text, formula)
@@ -83,22 +82,6 @@ def _judge(case: Case, measured: Measured, constraint: Constraint, text: str) ->
         return _not_reached(case, measured, constraint, kind, text, reason)
     except CannotJudge as reason:
         return unjudged(constraint.id, kind, text, str(reason))
-
-
-def signed_rate(case: Case, formula: Formula, moments: Moments) -> Formula:
-    """Read ``A1a(dec) == 3`` as a deceleration of 3 m/s^2: a rate of slowing down is often given without its sign."""
-    if not isinstance(formula, Compare) or formula.operator != "==":
-        return formula
-    state = formula.left
-    if not (isinstance(state, State) and state.order == 2 and isinstance(state.at, PieceRef)):
-        return formula
-    sketch = case.program.actor(state.actor).sketch
-    try:
-        slowing = sketch.pieces[sketch.piece_index(state.at.name)] is PieceKind.DEC
-        positive = bool(np.all(np.asarray(sides(case, formula, moments)[1]) > 0))
-    except (KeyError, CannotJudge):
-        return formula
-    return Compare("==", state, Negate(formula.right), formula.span) if slowing and positive else formula
 
 
 def _comparison(case: Case, moments: Moments, name: str, kind: Kind, text: str, compare: Compare) -> Condition:

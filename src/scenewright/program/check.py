@@ -27,7 +27,8 @@ _OF_DIMENSION = {"length": _LENGTH, "time": _TIME, "speed": _SPEED, "acceleratio
 _OF_DERIVED = {"gap": _LENGTH, "freespace": _LENGTH, "tta": _TIME, "ttc": _TIME, "headway": _TIME}
 _EXAMPLE_S = ex.Number(Fraction("3.4"))
 # What a piece is, and how a bound on its rate reads that leaves but weaker ones.
-_WEAK = {PieceKind.DEC: ("braking", ">"), PieceKind.ACC: ("speeding up", "<")}
+# By kind: what it is called, the sign of its rate, and what bounds it to be weak.
+_PULLS = {PieceKind.DEC: ("braking", -1, ">"), PieceKind.ACC: ("speeding up", 1, "<")}
 _NAMES = {
     _LENGTH: "a length (m)",
     _TIME: "a time (s)",
@@ -165,7 +166,7 @@ class _Checker:
             ) from None
 
     def _check_rates(self, formula: ex.Formula, values: Values) -> None:
-        """Refuse a braking, or a speeding up, that is asked to be so weak that the manner calls it none."""
+        """Refuse a braking, or a speeding up, with the other one's sign, or so weak that the manner calls it none."""
         if isinstance(formula, ex.Logic) and formula.operator == "and":
             for operand in formula.operands:
                 self._check_rates(operand, values)
@@ -174,7 +175,7 @@ class _Checker:
             return
         assert isinstance(state.at, ex.PieceRef)
         sketch, faint = self._actor(state.actor, state.span).sketch, self.program.manner.faint_mpss
-        what, leaves_weak = _WEAK.get(sketch.pieces[sketch.piece_index(state.at.name)], ("", ""))
+        what, sign, leaves_weak = _PULLS.get(sketch.pieces[sketch.piece_index(state.at.name)], ("", 1, ""))
         operator: str = formula.operator
         other = formula.right
         if formula.right == state:
@@ -182,13 +183,15 @@ class _Checker:
         elif formula.left != state:
             return
         rate = magnitude(other, values).constant
-        if rate is not None and abs(rate) < faint and what and operator in ("==", leaves_weak, f"{leaves_weak}="):
+        if rate is not None and sign * rate < faint and what and operator in ("==", leaves_weak, f"{leaves_weak}="):
+            least = f"{format_fraction(sign * faint)} m/s^2 or {'more' if sign > 0 else 'less'}"
+            fix = "give the rate that is meant, or let it go on there: a piece 'go'"
             raise self._error(
                 f"a rate of {format_fraction(rate)} m/s^2 is no {what}",
                 formula.span,
                 found=print_expression(formula),
-                expected=f"{format_fraction(faint)} m/s^2 or more, which is faint_mpss of the manner",
-                fix="give the rate that is meant, or let it go on there: a piece 'go'",
+                expected=f"{least}, by faint_mpss of the manner",
+                fix=fix if abs(rate) < faint else f"give it its sign: {format_fraction(-rate)}",
             )
 
     def _actor(self, actor_id: int, span: Span | None) -> Actor:
