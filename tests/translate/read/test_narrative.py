@@ -109,6 +109,8 @@ def test_the_same_is_one_moment_and_a_deed_may_end_at_a_stop() -> None:
     [
         "It waits until the ego has passed the conflict point. Then it drives on.",
         "Once the ego has passed the conflict point, it drives on.",
+        "When the ego has passed, it drives on.",
+        "It waits until the ego has passed. Then it drives on.",
     ],
 )
 def test_who_waits_goes_on_after_what_it_waits_for(text: str) -> None:
@@ -117,6 +119,7 @@ def test_who_waits_goes_on_after_what_it_waits_for(text: str) -> None:
     assert (passed.actor, passed.place, passed.op) == (0, st.Place("conflict_point"), ">=")
     assert story.ego[-1] == story.deeds[-1].begins
     assert [deed.verb for deed in story.deeds] == ["drive on", "brake", "stand still", "drive on"]
+    assert ("'ego has passed' is of the conflict point" in story.assumptions) == ("has passed the" not in text)
 
 
 @pytest.mark.parametrize(
