@@ -31,9 +31,10 @@ def test_trace_with_nan_or_unordered_times_is_refused() -> None:
     def unordered(trace: ActorTrace) -> ActorTrace:
         return replace(trace, time_s=trace.time_s[::-1].copy())
 
-    for change in (holed, unordered):
-        with pytest.raises(InputError, match="no numbers"):
+    for change, found in ((holed, "d_m nan at step "), (unordered, "time_s ")):
+        with pytest.raises(InputError, match="the trace of hero cannot be judged") as caught:
             YIELDS.case(change)
+        assert (caught.value.found or "").startswith(found)
 
 
 def test_a_landmark_is_that_of_its_partner_or_of_the_usual_one() -> None:

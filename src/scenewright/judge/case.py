@@ -106,11 +106,14 @@ class Case:
                 expected=", ".join(absent),
                 fix="judge a trace with the program that it was made from",
             )
-        broken = [actor.name for actor in self.program.actors if not _sound(self.trace.actors[actor.name])]
-        if broken:
+        broken = ((actor.name, _fault_of(self.trace.actors[actor.name])) for actor in self.program.actors)
+        for name, found in ((name, fault) for name, fault in broken if fault is not None):
             # A comparison with NaN is false either way, and would pass for "within the limit".
             raise InputError(
-                "the trace holds values that are no numbers, or times that do not increase", found=broken[0]
+                f"the trace of {name} cannot be judged",
+                found=found,
+                expected="a finite number for every value, and times that increase",
+                fix="write the trace again from the simulator",
             )
         unset = [p.name for p in self.program.parameters if p.name not in self.parameters]
         if unset:
@@ -191,6 +194,11 @@ class Case:
         return None if back is None else -back
 
 
-def _sound(states: ActorTrace) -> bool:
-    finite = all(bool(np.all(np.isfinite(getattr(states, column)))) for column in ("time_s", *COLUMNS))
-    return finite and bool(np.all(np.diff(states.time_s) > 0))
+def _fault_of(states: ActorTrace) -> str | None:
+    """Return the first of an actor's values that is no number, or its first time that does not increase."""
+    for column in ("time_s", *COLUMNS):
+        values = getattr(states, column)
+        if len(steps := np.flatnonzero(~np.isfinite(values))):
+            return f"{column} {values[steps[0]]} at step {steps[0]}"
+    late = np.flatnonzero(np.diff(states.time_s) <= 0)
+    return f"time_s {states.time_s[late[0] + 1]:g} at step {late[0] + 1}" if len(late) else None

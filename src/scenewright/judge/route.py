@@ -18,8 +18,8 @@ from scenewright.trace.model import ActorTrace
 from scenewright.translate.phrases import called
 
 MAX_LATERAL_M = 1.0
-MAX_ANGLE_RAD = 0.5  # between where a car points and where it goes: more is sliding, or another path
-MAX_HEADING_RAD = np.pi / 3  # from a cardinal direction
+MAX_ANGLE_RAD = 0.5  # between where a car points and where it, or its line, goes: more is sliding, or another path
+MAX_HEADING_RAD = float(np.pi / 3)  # from a cardinal direction
 MAX_MAP_ERROR_M = 0.2
 BACK_M = 0.05
 _MOVING_MPS = 0.5
@@ -66,7 +66,7 @@ def _headings(case: Case, actor: Actor, expected: tuple[str, ...]) -> Condition:
 
     Without the map the first direction is compared at the start and, once the turn is behind the actor, the last one.
     """
-    states, limit = case.timelines[actor.id].states, float(MAX_HEADING_RAD)
+    states = case.timelines[actor.id].states
     name, text = f"route_{actor.name}_directions", f"{called(actor.name)} is headed"
     told = f"{text} {', then '.join(expected)}"
     try:
@@ -77,14 +77,14 @@ def _headings(case: Case, actor: Actor, expected: tuple[str, ...]) -> Condition:
     else:
         worst = float(np.max(np.abs(_wrapped(states.heading_rad - line))))
         along = f"{told}, along the line of its route" if expected else f"{text} along the line of its route"
-        return _limit(name, along, limit, worst, "rad")
+        return _limit(name, along, MAX_ANGLE_RAD, worst, "rad")
     off = [_off(states.heading_rad[:1], expected[0])]
     try:
         turned = states.s_m >= case.landmark_m("turn_end", actor.id)
         off.append(_off(states.heading_rad[turned], expected[-1]))
     except CannotJudge:
         pass  # a route without a turn has one direction
-    return _limit(name, told, limit, max(off), "rad")
+    return _limit(name, told, MAX_HEADING_RAD, max(off), "rad")
 
 
 def _off(headings: FloatArray, cardinal: str) -> float:
