@@ -5,6 +5,7 @@ from __future__ import annotations
 import random
 from collections.abc import Iterator
 from contextlib import suppress
+from dataclasses import replace
 from fractions import Fraction
 
 from scenewright.errors import TranslationError
@@ -66,7 +67,7 @@ class Teller:
         chains = {actor: sorted(pick.sample(range(1, count + 1), pick.randint(1, count))) for actor in self.actors[1:]}
         ego = sorted(pick.sample(range(1, count + 1), pick.randint(0, count)))
         deeds = [
-            Deed(actor, pick.choice(tuple(Verb)), begins, ends, self.throughout(actor))
+            Deed(actor, verb := pick.choice(tuple(Verb)), begins, ends, self.throughout(actor, verb))
             for actor, chain in chains.items()
             for begins, ends in zip((START, *chain), chain, strict=False)
         ]
@@ -146,8 +147,10 @@ class Teller:
                 return Measure(who, quantity, op, amount)
         return Measure(who, quantity, op, amount, other=pick.choice(others))
 
-    def throughout(self, actor: int) -> tuple[Measure, ...]:
+    def throughout(self, actor: int, verb: Verb) -> tuple[Measure, ...]:
         found = [self.measure(actor, alone=True) for _ in range(self.random.choice((0, 0, 0, 1, 2)))]
+        if verb in (Verb.BRAKE, Verb.SPEED_UP):  # whose rates have their sign
+            found = [replace(m, opposite=verb is Verb.BRAKE) if m.quantity is Quantity.RATE else m for m in found]
         standing = [each for each in found if each.op == "==" and each.amount is not None and each.amount.value == 0]
         return tuple(dict.fromkeys(each for each in found if each not in standing))  # a deed of its own says that
 
