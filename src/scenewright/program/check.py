@@ -26,8 +26,7 @@ _OF_ORDER = (_LENGTH, _SPEED, _ACCELERATION)
 _OF_DIMENSION = {"length": _LENGTH, "time": _TIME, "speed": _SPEED, "acceleration": _ACCELERATION}
 _OF_DERIVED = {"gap": _LENGTH, "freespace": _LENGTH, "tta": _TIME, "ttc": _TIME, "headway": _TIME}
 _EXAMPLE_S = ex.Number(Fraction("3.4"))
-# What a piece is, and how a bound on its rate reads that leaves but weaker ones.
-# By kind: what it is called, the sign of its rate, and what bounds it to be weak.
+# What a piece is, the sign of its rate, and how a bound on that reads which leaves but weaker ones.
 _PULLS = {PieceKind.DEC: ("braking", -1, ">"), PieceKind.ACC: ("speeding up", 1, "<")}
 _NAMES = {
     _LENGTH: "a length (m)",
