@@ -126,3 +126,8 @@ def test_a_rate_of_slowing_down_has_its_sign() -> None:
 def test_standing_for_a_while_is_measured_and_not_assumed() -> None:
     assert judged(GOES_AFTER, "A1(t3) == A1(t2) + 1.5").error == pytest.approx(0.0, abs=1e-3)
     assert not judged(GOES_AFTER, "A1(t3) == A1(t2) + 3").holds_at(LOOSE)
+
+
+@pytest.mark.parametrize(("begins_s", "holds"), [("7.5", True), ("7.5000000001", True), ("7.51", False)])
+def test_a_stretch_that_ends_where_it_begins_to_within_rounding_is_that_moment(begins_s: str, holds: bool) -> None:
+    assert judged(BRAKES, f"eventually[{begins_s}, 7.5](A1v >= 7.9)").holds_at(LOOSE) == holds

@@ -30,6 +30,7 @@ from scenewright.judge.tolerance import (
 )
 from scenewright.program.expressions import Compare, Elapsed, Formula, Logic, PieceRef, State, Temporal, piece_of, walk
 
+_ROUNDING_S = 1e-6  # moments that are nearer than this are one
 _OPPOSITE = {"<=": ">", ">=": "<", "<": ">=", ">": "<="}
 
 
@@ -125,8 +126,9 @@ def _temporal(case: Case, formula: Temporal, moments: Moments, negated: bool) ->
     if not np.isfinite(start_s) or start_s > case.end_s:
         raise CannotJudge("the run ended before the stretch of time began")
     lasting = (formula.operator != "eventually") != negated
-    if end_s < start_s:  # at no instant: what holds always holds, what holds sometime does not
+    if end_s < start_s - _ROUNDING_S:  # at no instant: what holds always holds, what holds sometime does not
         return Leaf(0.0 if lasting else np.inf, None)
+    end_s = max(start_s, end_s)
     if lasting and np.isfinite(end_s) and end_s > case.end_s + TIGHT.time_s:
         raise CannotJudge(f"the run ended {end_s - case.end_s:.2f} s before the stretch of time did")
     body_negated = (formula.operator == "never") != negated
