@@ -45,10 +45,10 @@ def test_examples_in_help_run_as_they_stand(command: Command, name: str, monkeyp
 def test_examples_work_in_a_shell(command: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("COLUMNS", "80")
     script = "\n".join(["set -e", "scenewright() {", f'{shlex.quote(sys.executable)} -m scenewright "$@"', "}"])
-    script += "\n" + "\n".join(examples_of(command("judge", "--help").stdout))
+    script += "\n" + "\n".join(examples_of(command("tell", "--help").stdout))
     done = subprocess.run(["bash", "-c", script], cwd=tmp_path, capture_output=True, text=True, check=False)
     assert done.returncode == 0, done.stderr
-    assert "Success" in done.stdout
+    assert "The hero is headed east and turns left." in done.stdout
 
 
 def test_every_command_has_a_word_on_each_of_its_options() -> None:
