@@ -2,8 +2,8 @@
 #
 # Set-ups are recorded by stamp files in the virtual environment and redone only when a lock or pyproject.toml changes.
 # uv installs where it is on the PATH, pip otherwise or where uv fails; both check the hashes in the locks. Byte-code is
-# written at install: the command then starts fast even where Python may not write it later. After pip on all cores, of
-# what compiles: packages hold files for other versions of Python, too.
+# written then, on all cores, of what compiles (packages hold files for other versions of Python, too): the command
+# starts fast even where Python may not write it later.
 
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
@@ -26,15 +26,15 @@ define install
 	@echo "setting up from $(1)"
 	@set -e; \
 	by_uv() { \
-		uv pip install --quiet --compile-bytecode --python $(PY) --require-hashes -r $(1) && \
+		uv pip install --quiet --python $(PY) --require-hashes -r $(1) && \
 		uv pip install --quiet --python $(PY) --no-deps --no-build-isolation -e . ; }; \
 	by_pip() { \
 		{ $(PY) -m pip --version || $(PY) -m ensurepip; } >/dev/null 2>&1 || { \
 			echo "pip is missing from $(VENV) and cannot be added: install the venv package of your Python" >&2; exit 1; }; \
 		$(PY) -m pip install -qq --no-input --disable-pip-version-check --no-compile --require-hashes -r $(1) && \
-		$(PY) -m pip install -qq --no-input --disable-pip-version-check --no-deps --no-build-isolation -e . && \
-		{ $(PY) -m compileall -q -j 0 $(VENV)/lib src >/dev/null || true; } ; }; \
+		$(PY) -m pip install -qq --no-input --disable-pip-version-check --no-deps --no-build-isolation -e . ; }; \
 	if [ -n "$(UV)" ]; then by_uv || { echo "uv could not install; trying pip" >&2; by_pip; }; else by_pip; fi
+	@$(PY) -m compileall -q -j 0 $(VENV)/lib src >/dev/null || true
 	@touch $@
 endef
 

@@ -105,6 +105,7 @@ def test_a_rate_of_slowing_down_has_its_sign(rate: str, read: float) -> None:
     condition = told(replace(YIELDS, parameters={"rate_mpss": 4.0}), f"A1a(dec) == {rate}")
     assert condition.required == pytest.approx(read)
     assert condition.measured == pytest.approx(-144.0 / 56.0, abs=1e-3)
+    assert condition.holds_at(LOOSE) == (rate == "-2.5714")
 
 
 def test_a_place_that_was_never_reached_is_missed_by_how_near_one_came() -> None:

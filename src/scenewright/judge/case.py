@@ -106,15 +106,15 @@ class Case:
                 expected=", ".join(absent),
                 fix="judge a trace with the program that it was made from",
             )
-        broken = ((actor.name, _fault_of(self.trace.actors[actor.name])) for actor in self.program.actors)
-        for name, found in ((name, fault) for name, fault in broken if fault is not None):
+        for actor in self.program.actors:
             # A comparison with NaN is false either way, and would pass for "within the limit".
-            raise InputError(
-                f"the trace of {name} cannot be judged",
-                found=found,
-                expected="a finite number for every value, and times that increase",
-                fix="write the trace again from the simulator",
-            )
+            if (found := _fault_of(self.trace.actors[actor.name])) is not None:
+                raise InputError(
+                    f"the trace of {actor.name} cannot be judged",
+                    found=found,
+                    expected="a finite number for every value, and times that increase",
+                    fix="write the trace again from the simulator",
+                )
         unset = [p.name for p in self.program.parameters if p.name not in self.parameters]
         if unset:
             raise InputError("a parameter has no value", found="none", expected=", ".join(unset))

@@ -8,7 +8,7 @@ soft rows meets all of it as well as it can. It proves nothing.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from fractions import Fraction
 
 import numpy as np
@@ -116,7 +116,7 @@ class Search:
         """Return linearised rows over scaled steps, their levels (to be at most zero, or zero) and which are equal."""
         compiled, count = self._compiled, len(self._compiled.atoms)
         parts = [(compiled.values(point), compiled.gradients(point), compiled.equal)]
-        parts.append(_laws(list(self._lines.values()), point))
+        parts.append(_laws(self._lines.values(), point))
         levels, rows, equal = (np.concatenate([part[k] for part in parts]) for k in range(3))
         rows = rows[:, :-1] * self._scale
         norms = np.maximum(np.sqrt((rows * rows).sum(axis=1)), 1e-9)
@@ -194,7 +194,7 @@ def _bounds_of(law: Law) -> Array:
     return np.array([float(each) for each in (law.rate_low, law.rate_high, law.speed_low, law.speed_high)])
 
 
-def _laws(lines: Sequence[_Line], point: Array) -> tuple[Array, Array, NDArray[np.bool_]]:
+def _laws(lines: Iterable[_Line], point: Array) -> tuple[Array, Array, NDArray[np.bool_]]:
     """Return the laws between neighbours on all lines: levels, slopes by all unknowns, and which are equal."""
     found = zip(*(line.stretches(point) for line in lines), strict=True)
     columns, (to, since), bounds, even = (np.concatenate(each, axis=-1) for each in found)

@@ -56,7 +56,7 @@ def _attach(taken: Taken) -> None:
         raise taken.left_over(last)  # "brakes within 4 s": until then, or for so long?
     if "stands" in taken.states:
         taken.measure(last, st.standstill(IT))
-    passes_by = {"pass"} <= taken.states and "has" in clause.notes and not (taken.targets or taken.amounts)
+    passes_by = "pass" in taken.states and "has" in clause.notes and not (taken.targets or taken.amounts)
     taken.people.assumptions += [f"'{clause.quote.text}' is of the conflict point"] * passes_by
     for name in [*sorted(taken.states & {"turn_start", "turn_end"}), *["conflict_point"] * passes_by]:
         taken.measure(last, st.Measure(IT, st.Quantity.PLACE, "==", None, st.Place(name)))
