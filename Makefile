@@ -1,9 +1,10 @@
 # Everything a newcomer needs: `make demo` to see it work, `make test` to see it tested. `make` alone lists all targets.
 #
 # Set-ups are recorded by stamp files in the virtual environment and redone only when a lock or pyproject.toml changes.
-# uv installs where it is on the PATH, pip otherwise or where uv fails; both check the hashes in the locks. Byte-code is
-# written then, on all cores, of what compiles (packages hold files for other versions of Python, too): the command
-# starts fast even where Python may not write it later.
+# uv installs: the one on the PATH, or one that pip puts into the environment first where it asks the usual index, for
+# uv knows no other of pip's. Where there is none, or it fails, pip does. All check the hashes in the locks. Byte-code of
+# what the command needs is written then, on all cores, of what compiles (packages hold files for other versions of
+# Python, too): it starts fast even where Python may not write it later.
 
 SHELL := /bin/bash
 .DEFAULT_GOAL := help
@@ -21,21 +22,27 @@ UV := $(shell uv --version >/dev/null 2>&1 && echo uv)
 PYTEST_ARGS ?= -n auto --dist worksteal
 LOCK_ARGS ?=
 
+PIP_INSTALL := $(PY) -m pip install -qq --no-input --disable-pip-version-check --no-compile
+
 # $(call install,LOCK): what the lock names, then this project itself, editable and without looking anywhere else.
 define install
 	@echo "setting up from $(1)"
-	@set -e; \
+	@set -e; uv="$(UV)"; \
+	has_pip() { $(PY) -m pip --version >/dev/null 2>&1 || $(PY) -m ensurepip >/dev/null 2>&1; }; \
+	own_uv() { \
+		has_pip && ! $(PY) -m pip config list 2>/dev/null | grep -q '[.]index-url=' && \
+		sed -n '/^uv==/,/[^\\]$$/p' $(1) >$(VENV)/uv.lock && $(PIP_INSTALL) --require-hashes -r $(VENV)/uv.lock && \
+		uv=$(BIN)/uv && export UV_CACHE_DIR=$(VENV)/uv.cache UV_SYSTEM_CERTS=1; }; \
 	by_uv() { \
-		uv pip install --quiet --python $(PY) --require-hashes -r $(1) && \
-		uv pip install --quiet --python $(PY) --no-deps --no-build-isolation -e . ; }; \
+		"$$uv" pip install --quiet --python $(PY) --require-hashes -r $(1) && \
+		"$$uv" pip install --quiet --python $(PY) --no-deps --no-build-isolation -e . ; }; \
 	by_pip() { \
-		{ $(PY) -m pip --version || $(PY) -m ensurepip; } >/dev/null 2>&1 || { \
+		has_pip || { \
 			echo "pip is missing from $(VENV) and cannot be added: install the venv package of your Python" >&2; exit 1; }; \
-		$(PY) -m pip install -qq --no-input --disable-pip-version-check --no-compile --require-hashes -r $(1) && \
-		$(PY) -m pip install -qq --no-input --disable-pip-version-check --no-deps --no-build-isolation -e . ; }; \
-	if [ -n "$(UV)" ]; then by_uv || { echo "uv could not install; trying pip" >&2; by_pip; }; else by_pip; fi
-	@$(PY) -m compileall -q -j 0 $(VENV)/lib src >/dev/null || true
-	@touch $@
+		$(PIP_INSTALL) --require-hashes -r $(1) && $(PIP_INSTALL) --no-deps --no-build-isolation -e . ; }; \
+	[ -n "$$uv" ] || own_uv || true; \
+	if [ -n "$$uv" ]; then by_uv || { echo "uv could not install; trying pip" >&2; by_pip; }; else by_pip; fi; \
+	rm -rf $(VENV)/uv.cache $(VENV)/uv.lock
 endef
 
 .PHONY: help
@@ -73,13 +80,13 @@ forms: $(VENV)/dev.stamp ## Ask anew what each stage does with every form of con
 	$(PY) tools/forms_table.py
 
 .PHONY: lock
-lock: ## Resolve both locks again (needs uv; LOCK_ARGS=--upgrade moves to newer versions)
+lock: $(VENV)/core.stamp ## Resolve both locks again (LOCK_ARGS=--upgrade moves to newer versions)
 	$(lock_command) --all-extras --group dev -o requirements-dev.lock
 	$(lock_command) --group build --constraint requirements-dev.lock -o requirements.lock
 	@! grep -n '://' requirements.lock requirements-dev.lock
 
 # Locks hold names, versions and hashes, but no address: each machine keeps its own package index.
-lock_command = uv pip compile pyproject.toml --quiet --universal --python-version 3.11 --generate-hashes --no-header \
+lock_command = $(or $(UV),$(BIN)/uv) pip compile pyproject.toml --quiet --universal --python-version 3.11 --generate-hashes --no-header \
 	--no-annotate --no-strip-extras --no-emit-index-url --no-emit-find-links $(LOCK_ARGS)
 
 .PHONY: clean
@@ -109,6 +116,9 @@ $(PY):
 
 $(VENV)/core.stamp: requirements.lock pyproject.toml | $(PY)
 	$(call install,requirements.lock)
+	@$(PY) -m compileall -q -j 0 $(VENV)/lib src >/dev/null || true
+	@touch $@
 
-$(VENV)/dev.stamp: requirements-dev.lock pyproject.toml | $(PY)
+$(VENV)/dev.stamp: requirements-dev.lock $(VENV)/core.stamp
 	$(call install,requirements-dev.lock)
+	@touch $@
