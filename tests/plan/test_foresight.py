@@ -56,6 +56,17 @@ def test_one_that_merges_is_followed_from_where_it_is_on_the_lane() -> None:
         assert list(ego.leaders(motions)) == followed
 
 
+@pytest.mark.parametrize(("told", "side"), [("", -1.0), ("A1x(t0) == 165\n", 1.0)])
+def test_a_hero_of_which_it_is_told_where_it_begins_keeps_to_the_side_of_the_ego_on_which_that_is(
+    told: str, side: float
+) -> None:
+    """Where it begins elsewhere it may begin so that it is on the right side where it acts."""
+    ego = foresight(program("W", "t0, go, t1, dec, t2", f"{told}A0(t1) == A1(t1)\nA1v(t2) == 3\n"), ConstantSpeed())
+    motions = leading(15.0, 6.0) | {EGO: ego.at_first()}  # passed by the ego after 2.5 s
+    assert ego.take_sides(motions, {1: "t1"})
+    assert ego.lanes(motions, 0.0, motions[EGO], first=True).apart[1][0] == side
+
+
 @pytest.mark.parametrize("first", [True, False])
 def test_how_a_hero_is_answered_is_what_is_foreseen_of_it_where_it_is_otherwise(first: bool) -> None:
     follower, motions = foresight(BRAKES_GAP, Driver(SIGNS)), leading(18.0, 10.0)

@@ -255,6 +255,27 @@ def test_when_the_steps_are_spent_only_last_resorts_are_tried(monkeypatch: pytes
     assert [start.last_resort for start in tried[1:]] == [True] * (len(tried) - 1)
 
 
+@pytest.mark.parametrize("ego", ["constant", "idm"])
+def test_an_ego_that_only_a_hero_places_begins_as_it_drives_by_itself(ego: str) -> None:
+    """Where it would begin else, the other has long been past its place; in some motion or other it has 34 m/s."""
+    asked = "gap(A0, A1, A1(t0)) == 45\nA1v(t0) == 11\nA0(t1) == A1(t1)\nA1x(t1) == 119\nA1v(t2) >= A1v(t1) + 2\n"
+    text = program("W", "t0, go, t1, acc, t2", asked)
+    result = orchestrate(Request(text, ego=ego, takes=1, explain="nothing"))
+    assert result.status == "success"
+    assert result.run is not None
+    assert result.run.trace.actors["ego"].speed_mps[0] == pytest.approx(13.9, abs=0.1)
+
+
+def test_no_plan_has_a_hero_pass_through_the_ego() -> None:
+    """It begins 57 m along its road and is to be ahead: an ego that began at its usual place would be in its way."""
+    asked = "A1x(t0) == 57\nA0(t1) == A1(t1)\nheadway(A0, A1, t1) == 2.5\nA1v(t2) == 3\n"
+    world = world_of(program("W", "t0, go, t1, dec, t2", asked), "constant")
+    planned = first_plan(world)
+    assert planned is not None
+    assert planned[2].is_good
+    assert planned[1].s_m < 57.0 - VEHICLE_LENGTH_M
+
+
 @pytest.mark.parametrize("ego", ["idm", "noisy"])
 def test_an_ego_that_nothing_places_begins_so_far_back_that_the_outcome_can_come_about(ego: str) -> None:
     """By the clock a hero brakes, and then passes before the ego: where that is until then is nobody's business."""

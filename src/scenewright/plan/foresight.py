@@ -15,7 +15,7 @@ from scenewright.plan.clearance import Clearance
 from scenewright.plan.following import Leader, foresee_follower
 from scenewright.plan.prediction import ConstantSpeed, EgoSample, Predictor
 from scenewright.plan.situation import Answer, Lanes, Otherwise, SeenAndForeseen
-from scenewright.program.structure import Structure
+from scenewright.program.structure import Structure, placed_at
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
 from scenewright.solve.arrival import LinearCondition
@@ -57,13 +57,15 @@ class Foresight:
     def take_sides(self, motions: Motions, until: Mapping[int, str]) -> bool:
         """Let whoever is on its lane, and nothing tells the side of, keep to that on which it is at a knot of its own.
 
-        Return whether that is anybody.
+        Or that on which it begins, where the program says where. Return whether that is anybody.
         """
         found: dict[int, Clearance] = {}
         for hero, knot in until.items():
             conflict = self.scene.conflict(EGO, hero)
             if hero not in self._on_lane and conflict is not None and conflict.kind == "following":
-                at_s, offset_m = motions[hero].knot_times_s[knot], self.scene.offset_m(EGO, hero)
+                start = frozenset({(hero, self.scene.program.actor(hero).sketch.knots[0])})
+                at_s = 0.0 if hero in placed_at(self.scene.program, start) else motions[hero].knot_times_s[knot]
+                offset_m = self.scene.offset_m(EGO, hero)
                 ahead = motions[hero].state(at_s)[0] + offset_m > motions[EGO].state(at_s)[0]
                 found[hero] = Clearance(ahead, offset_m, of_distance=False)
         self._on_lane |= found

@@ -20,7 +20,7 @@ from scenewright.plan.planner import GOOD, Attempt, Planner
 from scenewright.plan.prediction import ConstantSpeed, Predictor
 from scenewright.plan.preferences import Preferences
 from scenewright.plan.rehearsal import Rehearsed
-from scenewright.program.expressions import Compare, Derived, DerivedKind, Knot, Number
+from scenewright.program.expressions import Compare, Derived, DerivedKind, Knot, Number, State
 from scenewright.program.starts import AT_ONCE_S, HARD_MPSS, TAILGATES_S, says_how_near
 from scenewright.program.structure import read_structure
 from scenewright.program.types import EGO, Constraint
@@ -200,10 +200,10 @@ def _foreseen(world: World, start: EgoFirstState, drive: Profile | None) -> tupl
 def _saved_and_touched(world: World, start: EgoFirstState, attempt: Attempt) -> tuple[list[int], bool]:
     """Return the heroes ahead of it, if the ego's policy brakes hard at once, and whether it touches one.
 
-    Nobody is saved from those that the program asks to begin so.
+    Or is on the other side of it at its trigger. Nobody is saved from those that the program asks to begin so.
     """
-    scene, ahead, touches = world.scene, list[int](), False
-    heroes = {hero.id: attempt.plan.profiles[hero.id] for hero in scene.program.heroes}
+    scene, ahead, touches, motions = world.scene, list[int](), False, attempt.plan.profiles
+    heroes = {hero.id: motions[hero.id] for hero in scene.program.heroes}
     begins = Start.of(scene, world.ego, (start.s_m, start.speed_mps), heroes)
     ego = begins.first[EGO]
     for hero in heroes:
@@ -214,7 +214,9 @@ def _saved_and_touched(world: World, start: EgoFirstState, attempt: Attempt) -> 
         # Who is still on another road is further away than along the road that the two will share.
         if math.hypot(there.x_m - ego.x_m, there.y_m - ego.y_m) >= abs(ahead_m) + _SAME_ROAD_M:
             continue
-        if abs(ahead_m) < VEHICLE_LENGTH_M:
+        acts_s = motions[hero].knot_times_s.get(world.structure.trigger_knot(hero) or "", 0.0)
+        then_m = motions[hero].state(acts_s)[0] + offset_m - motions[EGO].state(acts_s)[0]
+        if abs(ahead_m) < VEHICLE_LENGTH_M or then_m * ahead_m < 0.0:
             touches = True
         elif ahead_m > 0.0 and not says_how_near(scene.program, world.structure, EGO, hero):
             ahead.append(hero)
@@ -248,6 +250,13 @@ def _kept_apart(scene: Scene, heroes: Iterable[int], speed_mps: float) -> Scene:
     return replace(scene, program=replace(scene.program, constraints=(*scene.program.constraints, *more)))
 
 
+def _at_speed(scene: Scene, speed_mps: float) -> Scene:
+    """Return a scene whose program says besides that the ego begins at this speed."""
+    begins = State(EGO, 1, Knot(scene.program.ego.sketch.knots[0]))
+    more = Constraint("begins_as_usual", Compare("==", begins, Number(pin(speed_mps))))
+    return replace(scene, program=replace(scene.program, constraints=(*scene.program.constraints, more)))
+
+
 def first_plan_of_smt(world: World) -> tuple[HeroDriver, EgoFirstState, Attempt] | str:
     """Plan by an SMT solver from the first of the ego's possible starts that it finds a plan from; else say why not."""
     from scenewright.plan.smt import SmtPlanner
@@ -275,33 +284,34 @@ def is_timed_by_ego(world: World) -> bool:
 
 
 def first_states(world: World) -> Iterator[EgoFirstState]:
-    """Yield what the policy would hold, and at last the first state in which an ego that holds its speed makes it.
+    """Yield what the policy would hold, and at last first states in which an ego that holds its speed makes it.
 
-    That is shifted, unless the program says where it begins, for an ego that does not hold its speed to be on time too.
-    Where there is none such, one that is nearer in time to a place than it is to be later: it may slow down.
+    First at the speed that it holds by itself, then at any. These are shifted, unless the program says where it begins,
+    for an ego that does not hold its speed to be on time too. Where there are none such, one that is nearer in time to
+    a place than it is to be later: it may slow down.
     """
-    told = linear_conditions(world.scene, world.structure)
+    told, found = linear_conditions(world.scene, world.structure), list[EgoFirstState]()
     conditions = tuple(of_ego(told, world.structure))
     lead_s = usual_lead_s(world.scene, world.structure, world.limits, told)
-    late = list[EgoFirstState]()
     for start in ego_starts(world.scene, world.ego, world.limits[EGO], conditions, lead_s):
-        if start.last_resort:
-            late.append(start)
-        else:
+        found.append(start)
+        if not start.last_resort:
             yield start
-    bounds = replace(world.ego_bounds, holds_speed=True)
-    witness = world.witness if world.ego_bounds.holds_speed else None
-    if witness is None:  # that there is none is no matter here: a proof is not looked for
-        witness, _ = shown(Question(world.scene, world.structure, world.limits, bounds), _GUESSES)
-    if witness is None:
-        yield from late
-        return
-    motion, name = witness.profiles[EGO], world.structure.trigger_knot(EGO)
-    start = EgoFirstState(*motion.state(0.0)[:2], last_resort=True)
-    first = {(EGO, world.scene.program.ego.sketch.knots[0])}
-    if name is not None and not any(each.moments == first and each.weights[EGO][0] for each in conditions):
-        there_m = motion.state(then_s := motion.knot_times_s[name])[0]
-        for _ in range(SHIFTS):
-            alone = drives_alone(world.ego, start, world.rates.step_s, then_s)
-            start = replace(start, s_m=max(0.0, start.s_m + there_m - alone.state(then_s)[0]))
-    yield start
+    first, name = {(EGO, world.scene.program.ego.sketch.knots[0])}, world.structure.trigger_knot(EGO)
+    is_placed = any(each.moments == first and each.weights[EGO][0] for each in conditions)
+    bounds, is_late = replace(world.ego_bounds, holds_speed=True), True
+    for scene in (*(_at_speed(world.scene, start.speed_mps) for start in found[:1]), world.scene):
+        witness = world.witness if scene is world.scene and world.ego_bounds.holds_speed else None
+        if witness is None:  # that there is none is no matter here: a proof is not looked for
+            witness, _ = shown(Question(scene, read_structure(scene.program), world.limits, bounds), _GUESSES)
+        if witness is None:
+            continue
+        motion, is_late = witness.profiles[EGO], False
+        start = EgoFirstState(*motion.state(0.0)[:2], last_resort=True)
+        if name is not None and not is_placed:
+            there_m = motion.state(then_s := motion.knot_times_s[name])[0]
+            for _ in range(SHIFTS):
+                alone = drives_alone(world.ego, start, world.rates.step_s, then_s)
+                start = replace(start, s_m=max(0.0, start.s_m + there_m - alone.state(then_s)[0]))
+        yield start
+    yield from (start for start in found if start.last_resort and is_late)

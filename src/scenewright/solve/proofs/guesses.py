@@ -6,13 +6,13 @@ possible: the search mends it. Later guesses are drawn, not made.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
-from scenewright.algebra.polynomials import Formula, Unknown
-from scenewright.solve.proofs.events import Events
+from scenewright.algebra.polynomials import Atom, Formula, Unknown, conjuncts
+from scenewright.solve.proofs.events import Events, State
 from scenewright.solve.proofs.order import tightened
 from scenewright.solve.proofs.witness import Witness
 
@@ -22,8 +22,11 @@ Array = NDArray[np.float64]
 _SPEED_MPS, _LASTS_S, _BEFORE_STOP_LINE_M = (3.0, 13.0), (1.0, 5.0), 60.0
 
 
-def first_guess(events: Events, formulas: Iterable[Formula], generator: np.random.Generator | None) -> Array:
-    """Return a guess, without a generator the plain one: everybody drives at one speed, past places that are told."""
+def first_guess(events: Events, formulas: Sequence[Formula], generator: np.random.Generator | None) -> Array:
+    """Return a guess, without a generator the plain one: everybody drives at one speed, past places that are told.
+
+    Who is told no place is where it is told to be beside others.
+    """
     ranges = tightened(events.unknowns, formulas)
     told = {number: 0.5 * float(each.low + each.high) for number, each in enumerate(ranges) if each.low == each.high}
     draw = (lambda low, high: 0.5 * (low + high)) if generator is None else generator.uniform
@@ -31,19 +34,43 @@ def first_guess(events: Events, formulas: Iterable[Formula], generator: np.rando
     point = np.array([0.5 * float(each.low + each.high) if each.kind == "other" else 0.0 for each in events.unknowns])
     point[list(told)] = list(told.values())
     times = _times(events, ranges, point, speed, draw)
-    for actor in events.scene.program.actors:
-        states = [(times[k], events.state(actor.id, k)) for k in events.instants_of(actor.id)]
-        anchors = {at_s: told[state.place.number] for at_s, state in states if state.place.number in told}
-        if not anchors:
-            stop_line = events.scene.landmarks_m[actor.id].get("stop_line", 80.0)
-            anchors = {min(at_s for at_s, _ in states): max(5.0, stop_line - _BEFORE_STOP_LINE_M)}
+    point[[n for state in events.states.values() if (n := state.speed.number) not in told]] = speed
+    anchors = {
+        actor.id: {
+            times[k]: told[state.place.number]
+            for k in events.instants_of(actor.id)
+            if (state := events.state(actor.id, k)).place.number in told
+        }
+        for actor in events.scene.program.actors
+    }
+    told = told | {n: each for n, each in enumerate(point.tolist()) if events.unknowns[n].kind != "place"}
+    equal = [part for part in conjuncts(formulas) if isinstance(part, Atom) and part.relation == "=="]
+    for actor in sorted(anchors, key=lambda actor: not anchors[actor]):
+        states = [(times[k], events.state(actor, k)) for k in events.instants_of(actor)]
+        beside = anchors[actor] or _beside(states, equal, told)
+        if not beside:
+            stop_line = events.scene.landmarks_m[actor].get("stop_line", 80.0)
+            beside = {min(at_s for at_s, _ in states): max(5.0, stop_line - _BEFORE_STOP_LINE_M)}
         for now_s, state in states:
-            if state.place.number not in told:
-                since_s = min(anchors, key=lambda at_s: abs(at_s - now_s))
-                point[state.place.number] = anchors[since_s] + speed * (now_s - since_s)
-            if state.speed.number not in told:
-                point[state.speed.number] = speed
+            if (number := state.place.number) not in told:
+                since_s = min(beside, key=lambda at_s: abs(at_s - now_s))
+                point[number] = beside[since_s] + speed * (now_s - since_s)
+                told[number] = point[number]
     return point
+
+
+def _beside(
+    states: Iterable[tuple[float, State]], equal: Iterable[Atom], told: Mapping[int, float]
+) -> dict[float, float]:
+    """Return where somebody is at moments (s) of which a comparison with what is `told` says it."""
+    found, places = dict[float, float](), {state.place.number: at_s for at_s, state in states}
+    for part in equal:
+        free = {number for key in part.left.terms for number in key} - told.keys()
+        if len(free) == 1 and (number := free.pop()) in places:
+            at_zero, at_one = (part.left.value({**told, number: place_m}) for place_m in (0.0, 1.0))
+            if at_one != at_zero:
+                found[places[number]] = at_zero / (at_zero - at_one)
+    return found
 
 
 def _times(
