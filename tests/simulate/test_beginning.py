@@ -276,6 +276,14 @@ def test_no_plan_has_a_hero_pass_through_the_ego() -> None:
     assert planned[1].s_m < 57.0 - VEHICLE_LENGTH_M
 
 
+@pytest.mark.parametrize("ego", ["constant", "idm"])
+def test_who_acts_by_the_clock_does_not_run_into_an_ego_that_turns(ego: str) -> None:
+    """Nothing of the ego is in what it is to do: it came from behind, and drove through the ego after 4 s."""
+    asked = "A1(t1) - A1(t0) == 7\nA1v(t2) >= A1v(t1) + 2\n"
+    text = program("E", "t0, go, t1, acc, t2", asked, ego_route="E, N")
+    assert orchestrate(Request(text, ego=ego, takes=1, explain="nothing")).status == "success"
+
+
 @pytest.mark.parametrize("ego", ["idm", "noisy"])
 def test_an_ego_that_nothing_places_begins_so_far_back_that_the_outcome_can_come_about(ego: str) -> None:
     """By the clock a hero brakes, and then passes before the ego: where that is until then is nobody's business."""

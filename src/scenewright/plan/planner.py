@@ -126,7 +126,8 @@ class Planner(Standing):
                 break
         best = min(tries, key=lambda found: found.solution.cost)
         self._keep(best)
-        if self._ego.take_sides(self.plan.profiles, self._asked.adapts_until):
+        begin = {hero.id: hero.sketch.knots[0] for hero in self._heroes}
+        if self._ego.take_sides(self.plan.profiles, {**begin, **self._asked.adapts_until}):
             best = self._planned_first(best.plan.profiles[EGO], best.plan.profiles)
             self._keep(best)
         led = bool(self._ego.leaders(self.plan.profiles))
