@@ -73,6 +73,12 @@ def test_routes_run_through_the_middle_of_their_lanes(road_map: RoadMap) -> None
                 assert abs(d_m) < 0.02
 
 
+def test_many_curvatures_are_those_of_each(t_map: RoadMap) -> None:
+    for route in all_routes(t_map):
+        s_m = np.arange(-3.0, route.path.length_m + 5.0, 0.37)
+        assert route.path.curvatures(s_m).tolist() == [route.path.curvature(float(s)) for s in s_m]
+
+
 def test_curvature_on_our_map_is_that_of_a_car(t_map: RoadMap) -> None:
     for route in all_routes(t_map):
         s_m = np.arange(0.0, route.path.length_m, 0.05)

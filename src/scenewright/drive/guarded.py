@@ -217,6 +217,8 @@ def _makes_sense(promise: Envelope) -> bool:
 
 
 def _is_number(value: object) -> bool:
+    if type(value) is float:  # nearly all are, at every step
+        return isfinite(value)
     if isinstance(value, bool | np.bool_) or not isinstance(value, float | int | np.floating | np.integer):
         return False
     return isfinite(value)

@@ -9,6 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import inf, sqrt
 
+import numpy as np
+
 from scenewright.drive.protocol import EgoStart
 
 _STEP_M = 0.5
@@ -59,17 +61,12 @@ def speed_profile(
         How hard it brakes ahead of a slower place, positive, in m/s^2.
     """
     path, lanes = start.route.path, start.road_map.lanes
-    limits_mps = [lanes[name].speed_limit_mps or start.speed_limit_mps for name in start.route.lanes]
-    starts_m = (*start.route.lane_starts_m[1:], inf)
-    speeds_mps, lane = [], 0
-    for index in range(int(path.length_m / _STEP_M) + 2):
-        s_m = index * _STEP_M
-        while s_m >= starts_m[lane]:
-            lane += 1
-        curve_per_m = max(abs(path.curvature(s_m)), _STRAIGHT_PER_M)
-        own_mps = inf if desired_mps is None else desired_mps
-        # A driver in a hurry accepts more in a curve too, in proportion.
-        speeds_mps.append(min(factor * limits_mps[lane], own_mps, sqrt(factor * lateral_mpss / curve_per_m)))
+    limits_mps = np.array([lanes[name].speed_limit_mps or start.speed_limit_mps for name in start.route.lanes])
+    s_m = _STEP_M * np.arange(int(path.length_m / _STEP_M) + 2, dtype=float)
+    limit_mps = factor * limits_mps[np.searchsorted(start.route.lane_starts_m[1:], s_m, side="right")]
+    # A driver in a hurry accepts more in a curve too, in proportion.
+    bend_mps = np.sqrt(factor * lateral_mpss / np.maximum(np.abs(path.curvatures(s_m)), _STRAIGHT_PER_M))
+    speeds_mps = np.minimum(np.minimum(limit_mps, inf if desired_mps is None else desired_mps), bend_mps).tolist()
     for index in range(len(speeds_mps) - 2, -1, -1):
         speeds_mps[index] = min(speeds_mps[index], sqrt(speeds_mps[index + 1] ** 2 + 2.0 * brake_mpss * _STEP_M))
     return SpeedProfile(tuple(speeds_mps), max(speeds_mps))

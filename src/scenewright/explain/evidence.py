@@ -153,7 +153,7 @@ def limit_reached(world: World, run: Run, hero: Actor, from_s: float, to_s: floa
     within them for longer could have done more. What lasts less than a tick is not answered by anybody.
     """
     states, limits, route = run.trace.actors[hero.name], world.limits[hero.id], world.scene.routes[hero.id]
-    bends = np.abs([route.path.curvature(float(s)) for s in states.s_m])
+    bends = np.abs(route.path.curvatures(states.s_m))
     reached = {
         "braking": (-states.accel_mps2, limits.brake_max_mpss, "m/s^2"),
         "acceleration": (states.accel_mps2, limits.accel_max_mpss, "m/s^2"),
@@ -241,7 +241,7 @@ def flat_out_s(route: Route, limits: Limits, s_m: float, speed_mps: float, place
         return 0.0
     places = np.linspace(s_m, place_m, 2 + int((place_m - s_m) / _ON_STEP_M))
     step_m = float(places[1] - places[0])
-    bends = np.maximum([abs(route.path.curvature(float(s))) for s in places], 1e-6)
+    bends = np.maximum(np.abs(route.path.curvatures(places)), 1e-6)
     cap = np.minimum(limits.lateral_max_mpss / bends, limits.speed_max_mps**2)  # of the square of the speed
     braking = 2.0 * limits.brake_max_mpss * step_m * np.arange(len(places))
     cap = np.minimum.accumulate((cap + braking)[::-1])[::-1] - braking

@@ -287,7 +287,7 @@ class Caps:
 def caps_of(route: Route, road_map: RoadMap, limits: Limits, comfortable_mpss: float) -> Caps:
     """Return how fast a route may be driven, in comfort with so much sideways."""
     places = np.arange(0.0, route.path.length_m + _STEP_M, _STEP_M)
-    bends = np.array([abs(route.path.curvature(float(s))) for s in places])
+    bends = np.abs(route.path.curvatures(places))
     around = round(_AROUND_M / _STEP_M)
     padded = np.pad(bends, around, mode="edge")
     sharpest = np.maximum(np.max([padded[k : k + len(bends)] for k in range(2 * around + 1)], axis=0), 1e-6)

@@ -85,16 +85,28 @@ class Path:
     def poses(self, s_m: FloatArray) -> FloatArray:
         """Return ``x, y, heading`` at many arc lengths, shape (N, 3)."""
         s = np.atleast_1d(np.asarray(s_m, dtype=float))
-        knots = np.array(self.knots_m)
-        inside = np.clip(s, 0.0, knots[-1])
-        index = np.clip(np.searchsorted(knots, inside, side="right") - 1, 0, len(knots) - 2)
-        t, over = inside - knots[index], s - inside
-        ax, bx, cx, dx, ay, by, cy, dy = np.array(self.segments)[index].T
+        t, (ax, bx, cx, dx, ay, by, cy, dy) = self._at(s)
         tangent_x, tangent_y = bx + t * (2 * cx + 3 * dx * t), by + t * (2 * cy + 3 * dy * t)
-        norm = np.hypot(tangent_x, tangent_y)
+        norm, over = np.hypot(tangent_x, tangent_y), s - np.clip(s, 0.0, self.length_m)
         x = ax + t * (bx + t * (cx + t * dx)) + over * tangent_x / norm
         y = ay + t * (by + t * (cy + t * dy)) + over * tangent_y / norm
         return np.column_stack([x, y, np.arctan2(tangent_y, tangent_x)])
+
+    def curvatures(self, s_m: FloatArray) -> FloatArray:
+        """Return the curvature in 1/m at many arc lengths, left turns positive, shape (N,)."""
+        t, (_, bx, cx, dx, _, by, cy, dy) = self._at(s_m)
+        x1, y1 = bx + t * (2 * cx + 3 * dx * t), by + t * (2 * cy + 3 * dy * t)
+        x2, y2 = 2 * cx + 6 * dx * t, 2 * cy + 6 * dy * t
+        speed = x1 * x1 + y1 * y1
+        bends = (x1 * y2 - y1 * x2) / (speed * np.sqrt(speed))
+        return np.where((s_m >= 0.0) & (s_m <= self.length_m), bends, 0.0)
+
+    def _at(self, s_m: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return how far arc lengths are behind the knots before them, and the segments there, a row each number."""
+        knots = np.array(self.knots_m)
+        inside = np.clip(s_m, 0.0, knots[-1])
+        index = np.clip(np.searchsorted(knots, inside, side="right") - 1, 0, len(knots) - 2)
+        return inside - knots[index], np.array(self.segments)[index].T
 
     def to_cartesian(self, s_m: float, d_m: float = 0.0, heading_error_rad: float = 0.0) -> tuple[float, float, float]:
         """Return ``x_m, y_m, heading_rad`` of a place `d_m` left of the path at `s_m`, heading off by an angle."""

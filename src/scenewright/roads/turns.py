@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from scenewright.roads.routes import Route
 
 
@@ -30,5 +32,5 @@ def tightest_curvature(route: Route) -> float:
     if turn is None:
         return 0.0
     steps = max(2, int((turn.end_m - turn.start_m) / 0.5))
-    places = (turn.start_m + (turn.end_m - turn.start_m) * i / steps for i in range(steps + 1))
-    return max(abs(route.path.curvature(s_m)) for s_m in places)
+    places = turn.start_m + (turn.end_m - turn.start_m) * np.arange(steps + 1) / steps
+    return float(np.abs(route.path.curvatures(places)).max())

@@ -137,7 +137,7 @@ def _too_fast(scene: Scene, limits: Limits, actor: int, times: Array, states: Ar
 def bends(route: Route) -> tuple[Array, Array]:
     """Return places (m) along a route, and how much it bends there (1/m)."""
     places = np.arange(0.0, route.path.length_m, _BEND_STEP_M)
-    return places, np.array([abs(route.path.curvature(float(s))) for s in places])
+    return places, np.abs(route.path.curvatures(places))
 
 
 def _touching(
