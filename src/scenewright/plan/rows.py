@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scenewright.motion.laws import Law
-from scenewright.plan.asked import Asked
+from scenewright.plan.asked import TIGHT, Asked
 from scenewright.plan.shooting import Leg, Moment, Shot
 from scenewright.plan.situation import Situation
 from scenewright.program.starts import TAILGATES_S
@@ -28,7 +28,6 @@ SOONEST_S = 0.02  # how soon after now a knot may come
 _ANY = float("inf")
 _STILL_MPS = 0.1  # what is as bad as a tight tolerance for one that is to stand
 FIRM = 20.0  # of a price: what no motion exceeds, and how everybody begins
-_TIGHT_SPEED, _TIGHT_RATE, _TIGHT_LENGTH, _TIGHT_TIME = 0.25, 0.25, 0.5, 0.1
 _UNBOUNDED = 900  # bounds of laws beyond this are none
 _ROUNDING_S = 1e-6
 _SENSE = {PieceKind.DEC: -1.0, PieceKind.ACC: 1.0}
@@ -166,7 +165,7 @@ class HeroRows:
         # Its last knot is on its road, unless the program asks for one at its end.
         end_m = self.asked.scene.routes[self.hero.id].landmarks["route_end"] - VEHICLE_LENGTH_M
         s_m, _, d_s_m, _ = shot.at_node(shot.first_node[-2])
-        self.bounds.add(s_m - end_m, d_s_m, wanted.price / _TIGHT_LENGTH, wanted.out_of_way_most)
+        self.bounds.add(s_m - end_m, d_s_m, wanted.price / TIGHT["place"], wanted.out_of_way_most)
         self.bounds.add_all(v - most, d_v - slope[:, None] * d_s, FIRM * wanted.price)
         comfortable, slope = caps.at(s, caps.comfortable)
         self.costs.beyond(v - comfortable, d_v - slope[:, None] * d_s, wanted.lateral_weight)
@@ -231,7 +230,7 @@ class HeroRows:
             self.costs.add(v - natural, d_v - slope * shot.d_s[node], wanted.trigger_speed_weight)
             self.bounds.add(wanted.slowest_mps - v, -d_v, wanted.slowest_price)
             if self.hero.id not in self.asked.speed_told:
-                self.bounds.add(wanted.moves_mps - v, -d_v, wanted.price / _TIGHT_SPEED)
+                self.bounds.add(wanted.moves_mps - v, -d_v, wanted.price / TIGHT["speed"])
 
     def _not_before(self, number: int, sense: float) -> None:
         """Add that what begins with a leg is not plainly done before it, and hardly at all just before it."""
@@ -243,7 +242,7 @@ class HeroRows:
                 break
             late = shot.time[shot.first_node[before] :][: leg.cells + 1] > settled_s
             most = self._faint(number) * np.where(late, wanted.settled_mpss, wanted.early_mpss)
-            prices = np.where(late, wanted.price / _TIGHT_RATE, wanted.early_price)
+            prices = np.where(late, wanted.price / TIGHT["rate"], wanted.early_price)
             self.bounds.add_all(sense * shot.z[list(leg.accels)] - most, self._units(leg.accels, sense), prices)
 
     def _begins(self, number: int, sense: float) -> None:
@@ -252,7 +251,7 @@ class HeroRows:
         lasts = max(float(shot.time[node + 1] - shot.time[node]), 1e-3)
         first = [accel for k, accel in enumerate(shot.legs[number].accels) if (k - 1) * lasts < wanted.beginning_s]
         short, slopes = self._faint(number) * wanted.beginning_mpss - sense * shot.z[first], self._units(first, -sense)
-        self.bounds.add_all(short, slopes, wanted.price / _TIGHT_RATE)
+        self.bounds.add_all(short, slopes, wanted.price / TIGHT["rate"])
 
     def _sets_off(self, number: int) -> bool:
         """Whether somebody drives on from a standstill in a leg."""
@@ -298,7 +297,7 @@ class HeroRows:
             self.bounds.add_all(shot.s[out] - zone_m, shot.d_s[out], wanted.out_of_way_price, wanted.out_of_way_most)
         caps = self.asked.caps[hero]
         most, slope = caps.at(s_m, caps.on_the_way_to(place_m)[0])
-        self.bounds.add_all(v - most, d_v - slope[:, None] * d_s, wanted.price / _TIGHT_SPEED, wanted.over_sign_most)
+        self.bounds.add_all(v - most, d_v - slope[:, None] * d_s, wanted.price / TIGHT["speed"], wanted.over_sign_most)
         if hero in self.now.waits:
             waits = until_s - shot.time[first : last + 1] > v_there / wanted.sets_off_mpss + wanted.waits_s
             beyond_m = s_m + v**2 / (2.0 * wanted.waits_mpss) + run_up_m - place_m
@@ -316,7 +315,7 @@ class HeroRows:
         if side < 0.0 and nodes.start == 0:  # whoever begins behind it does not tailgate
             room_m[0] -= TAILGATES_S * shot.v[0]
             slopes[0] += TAILGATES_S * shot.d_v[0]
-        self.bounds.add_all(-room_m, slopes, wanted.price / _TIGHT_LENGTH, wanted.out_of_way_most)
+        self.bounds.add_all(-room_m, slopes, wanted.price / TIGHT["place"], wanted.out_of_way_most)
 
     def _plainly(self, node: int) -> None:
         """Add that the distance changes plainly at the trigger: else it is as good as met for a long while."""
@@ -342,9 +341,9 @@ class HeroRows:
         """Add a narrower law."""
         speeds, rates = (float(law.speed_low), float(law.speed_high)), (float(law.rate_low), float(law.rate_high))
         for node, accel in self._within(begin_s, end_s):
-            self._within_bounds(float(self.shot.v[node]), self.shot.d_v[node], *speeds, _TIGHT_SPEED)
+            self._within_bounds(float(self.shot.v[node]), self.shot.d_v[node], *speeds, TIGHT["speed"])
             if accel is not None:
-                self._within_bounds(float(self.shot.z[accel]), self._units([accel], 1.0)[0], *rates, _TIGHT_RATE)
+                self._within_bounds(float(self.shot.z[accel]), self._units([accel], 1.0)[0], *rates, TIGHT["rate"])
 
     def _within_bounds(self, value: float, slope: Array, low: float, high: float, tight: float) -> None:
         weight = self.asked.wanted.price / tight
