@@ -217,3 +217,11 @@ def test_who_stood_behind_the_ego_drives_on_again() -> None:
     assert len(stood_s) > 0
     assert hero.speed_mps[-1] > 1.0
     assert hero.time_s[-1] > stood_s.max() + 0.5
+
+
+@pytest.mark.parametrize("ego", ["constant", "idm"])
+def test_a_trigger_is_not_put_off_for_ever_where_a_hero_is_to_be_far_beyond_its_sign(ego: str) -> None:
+    """13.5 m/s where 5.6 are posted, whenever that is: ever later was ever cheaper, until it stood."""
+    asked = "A1x(t1) == stop_line - 35\nA1v(t1) == 13.5\nA1v(t2) == 0\nA0(t1) == A1(t1)\n"
+    text = program("S, W", "t0, go, t1, dec, t2", asked)
+    assert orchestrate(Request(text, ego=ego, takes=1, explain="nothing")).status == "success"

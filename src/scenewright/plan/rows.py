@@ -25,6 +25,7 @@ Array = NDArray[np.float64]
 Columns = NDArray[np.intp]
 
 SOONEST_S = 0.02  # how soon after now a knot may come
+CELL_S = 0.6  # nodes are about so far apart
 _ANY = float("inf")
 _STILL_MPS = 0.1  # what is as bad as a tight tolerance for one that is to stand
 FIRM = 20.0  # of a price: what no motion exceeds, and how everybody begins
@@ -38,7 +39,7 @@ class Block(NamedTuple):
 
     values: Array
     slopes: Array
-    most: float
+    most: Array | float
     columns: Columns | None
 
 
@@ -62,13 +63,13 @@ class Rows:
     @property
     def most(self) -> Array:
         """From where on the cost of each row grows evenly."""
-        return np.repeat([block.most for block in self.blocks], [len(block.values) for block in self.blocks])
+        return np.concatenate([np.zeros(0), *(np.broadcast_to(each.most, len(each.values)) for each in self.blocks)])
 
     def add(self, value: float, slope: Array, weight: float = 1.0, most: float = _ANY) -> None:
         """Add one row."""
         self.blocks.append(Block(np.array([weight * value]), (weight * slope)[None], most, self.by))
 
-    def add_all(self, values: Array, slopes: Array, weights: Array | float = 1.0, most: float = _ANY) -> None:
+    def add_all(self, values: Array, slopes: Array, weights: Array | float = 1.0, most: Array | float = _ANY) -> None:
         """Add a row for each value, with its slopes in a row."""
         self.blocks.append(Block(weights * values, np.asarray(weights)[..., None] * slopes, most, self.by))
 
@@ -297,7 +298,11 @@ class HeroRows:
             self.bounds.add_all(shot.s[out] - zone_m, shot.d_s[out], wanted.out_of_way_price, wanted.out_of_way_most)
         caps = self.asked.caps[hero]
         most, slope = caps.at(s_m, caps.on_the_way_to(place_m)[0])
-        self.bounds.add_all(v - most, d_v - slope[:, None] * d_s, wanted.price / TIGHT["speed"], wanted.over_sign_most)
+        # By the time that each node stands for: else it is cheaper the later it is, and is put off for ever.
+        (lasts_s, d_lasts), weight = shot.stands_for(slice(first, last + 1)), wanted.price / TIGHT["speed"]
+        share = np.sqrt(lasts_s / CELL_S)
+        slopes = d_v - slope[:, None] * d_s + (0.5 * (v - most) / lasts_s)[:, None] * d_lasts
+        self.bounds.add_all(v - most, slopes, share * weight, share * wanted.over_sign_most)
         if hero in self.now.waits:
             waits = until_s - shot.time[first : last + 1] > v_there / wanted.sets_off_mpss + wanted.waits_s
             beyond_m = s_m + v**2 / (2.0 * wanted.waits_mpss) + run_up_m - place_m

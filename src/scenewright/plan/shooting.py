@@ -133,6 +133,14 @@ class Shot:
         d_place[here, other[number[here]]] += by_jerk[here]
         return place, speed, d_place
 
+    def stands_for(self, nodes: slice) -> tuple[Array, Array]:
+        """Return the time (s) that each of some nodes stands for, half of that to its neighbours, and its slopes."""
+        both = self.time[nodes], self.d_time[nodes]
+        lasts_s, d_lasts = (
+            0.5 * (np.diff(each, axis=0, prepend=each[:1]) + np.diff(each, axis=0, append=each[-1:])) for each in both
+        )
+        return np.maximum(lasts_s, 1e-6), d_lasts
+
     def passes(self, place_m: float) -> tuple[float, float]:
         """Return when it comes to a place, and how fast it is there; behind its end it holds its speed."""
         last = len(self.s) - 1

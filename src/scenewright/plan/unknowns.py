@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scenewright.motion.profile import Profile
 from scenewright.plan.asked import Asked, number_of
 from scenewright.plan.pairs import AFTER_S, LOOK_S, Meeting, Way, passes_s
-from scenewright.plan.rows import SOONEST_S, Columns
+from scenewright.plan.rows import CELL_S, SOONEST_S, Columns
 from scenewright.plan.shooting import CREEPS_MPS, Leg, Moment, Shot, Start, shoot
 from scenewright.plan.situation import Situation
 from scenewright.program.types import EGO, Actor, PieceKind
@@ -23,7 +23,7 @@ from scenewright.program.types import EGO, Actor, PieceKind
 Array = NDArray[np.float64]
 
 # Between two nodes, how many there are in a leg at most, and how far a plan looks beyond its last knot; chosen.
-_CELL_S, _MOST_CELLS, AFTER_LAST_S = 0.6, 18, 3.0
+_MOST_CELLS, AFTER_LAST_S = 18, 3.0
 LEAST_S = 0.05  # between two knots of one hero: shorter than any manner lets a piece be
 _LEAST_APPROACH_S = 0.4  # before the settled end of an approach, for it to have a leg of its own; chosen
 _LATEST_S, _FASTEST_MPS = 200.0, 60.0  # beyond what any run lasts (see `LONGEST_S`) and any law of motion lets drive
@@ -234,7 +234,7 @@ class Unknowns:
         elif kind is PieceKind.ACC:
             low, guess = 0.0, wanted.speeding_up_mpss
         lasts_s = last.value(self._guess) - first.value(self._guess)
-        cells = min(max(2, round(lasts_s / _CELL_S)), _MOST_CELLS)
+        cells = min(max(2, round(lasts_s / CELL_S)), _MOST_CELLS)
         accels = [legs[-1].accels[-1]] if joined else []
         before = self._as_planned(hero, piece, first, last)
         for k in range(len(accels), cells + 1):
