@@ -48,13 +48,22 @@ class PlotError(ScenewrightError):
     """The fault of a plot."""
 
 
+class Can:
+    """What a plot says that it can do."""
+
+    def words(self) -> str:
+        return "lines"
+
+
 class Plot:
+    capabilities = Can()
+
     def draw(self) -> None:
         raise ZeroDivisionError("no\npaper")
 
 
 def kind(**points: str) -> Kind[Plot]:
-    return Kind(GROUP, points, "plot", "draws", PlotError, {"deep": "no-such-library"})
+    return Kind(GROUP, points, "plot", "draws", PlotError, Can, {"deep": "no-such-library"})
 
 
 def test_parts_of_a_kind_are_listed_with_what_they_miss_and_made_by_name() -> None:
@@ -81,10 +90,31 @@ def test_a_part_that_cannot_be_imported_is_a_fault_of_its_kind() -> None:
     assert "No module named 'nowhere'" in str(broken.value.found)
 
 
+class SaysNothing(Plot):
+    capabilities = None
+
+
+class Leaves(Plot):
+    def __init__(self) -> None:
+        raise SystemExit(3)
+
+
+def test_one_that_is_wrong_is_listed_with_what_is_wrong_beside_the_others(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "test_plugins_plot", sys.modules[__name__])
+    offered = {name.lower(): f"test_plugins_plot:{name}" for name in ("Plot", "SaysNothing", "Leaves")}
+    told = kind(**offered, deep="nowhere:nothing [deep]").words()
+    assert told["plot"] == "lines"
+    assert told["saysnothing"] == "the plot 'saysnothing' does not say what it can do: None"
+    assert told["leaves"].startswith("the plot 'leaves' cannot be imported: SystemExit: 3 (line ")
+    assert "no-such-library" in told["deep"]
+
+
 def test_whose_fault_it_is_is_told() -> None:
     with pytest.raises(PlotError, match="the plot Plot failed") as broken, kind().blamed(Plot()):
         Plot().draw()
     assert str(broken.value.found).startswith("ZeroDivisionError: no (line ")
+    with pytest.raises(PlotError, match="the plot Plot failed"), kind().blamed(Plot()):
+        raise SystemExit(3)
     with pytest.raises(InputError), kind().blamed(Plot()):
         raise InputError("is told already")
     with pytest.raises(KeyboardInterrupt), kind().blamed(Plot()):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import doctest
 import random
 from collections.abc import Mapping
+from dataclasses import replace
 from importlib import import_module
 
 import pytest
@@ -16,6 +17,7 @@ from scenewright.program.types import EGO
 from scenewright.roads.bodies import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M
 from scenewright.simulate.builtin import BuiltIn
 from scenewright.simulate.port import Capabilities, Simulator, Snapshot, Start, on_route
+from scenewright.simulate.vehicles import seen
 from scenewright.testing import check_simulator
 from scenewright.trace.model import ActorState
 from toys import Bicycles, OwnStack
@@ -209,6 +211,77 @@ class TellsThePolicyTheRoutes(BuiltIn):
         self._action = self._ego.decide(self._time_s, others, self._step_s)
 
 
+class Shakes(Changed):
+    """Heroes are a centimetre to either side of where they are to be, along their way."""
+
+    capabilities = Capabilities(place_error_m=0.05)
+
+    def apply(self, heroes: Mapping[int, Profile]) -> None:
+        self._motions = heroes
+        self._place_heroes()
+        shown = {actor: self.change(actor, state) for actor, state in self._heroes.items()}
+        self._action = self._ego.decide(self._time_s, seen(self._scene, shown), self._step_s)
+
+    def change(self, actor: int, state: ActorState) -> ActorState:
+        if actor == EGO:
+            return state
+        off_m = 0.01 if self._steps % 2 else -0.01
+        return on_route(self._scene.routes[actor], (state.s_m + off_m, state.speed_mps, state.accel_mps2))
+
+
+class AcceleratesByHalf(Changed):
+    """For half a second the ego's accelerations are not those that it has."""
+
+    def change(self, actor: int, state: ActorState) -> ActorState:
+        wrong = actor == EGO and 3.0 < self._time_s < 3.5
+        return state._replace(accel_mps2=state.accel_mps2 + 1.5) if wrong else state
+
+
+class ShowsThePolicy(BuiltIn):
+    """What it shows the policy of others is changed."""
+
+    def apply(self, heroes: Mapping[int, Profile]) -> None:
+        self._motions = heroes
+        self._place_heroes()
+        others = tuple(self.shown(other) for other in seen(self._scene, self._heroes))
+        self._action = self._ego.decide(self._time_s, others, self._step_s)
+
+    def shown(self, other: VehicleState) -> VehicleState:
+        raise NotImplementedError
+
+
+class ShowsThePolicyNoHeadings(ShowsThePolicy):
+    def shown(self, other: VehicleState) -> VehicleState:
+        return replace(other, heading_rad=0.0)
+
+
+class ShowsThePolicyNoAccelerations(ShowsThePolicy):
+    def shown(self, other: VehicleState) -> VehicleState:
+        return replace(other, accel_mps2=0.0)
+
+
+class MisleadsThePolicyOnItsOwnPlace(BuiltIn):
+    def apply(self, heroes: Mapping[int, Profile]) -> None:
+        here = self._ego.state
+        self._ego.state = here._replace(s_m=here.s_m + 1.0)
+        super().apply(heroes)
+        self._ego.state = self._ego.state._replace(s_m=here.s_m)
+
+
+class ShowsNothing(BuiltIn):
+    def observe(self) -> Snapshot:
+        return None  # type: ignore[return-value]
+
+
+class ShowsNumbers(Changed):
+    def change(self, actor: int, state: ActorState) -> ActorState:
+        return tuple(state)  # type: ignore[return-value]
+
+
+class SaysNothing(BuiltIn):
+    capabilities = None  # type: ignore[assignment]
+
+
 class DrivesOnWithoutThePolicy(BuiltIn):
     def apply(self, heroes: Mapping[int, Profile]) -> None:
         try:
@@ -257,6 +330,14 @@ class ClosesOnce(BuiltIn):
         (AsksTwice, "the policy was asked 1200 times in 600 steps"),
         (ShowsThePolicyThePast, "the policy saw"),
         (TellsThePolicyTheRoutes, "told where heroes are going"),
+        (Shakes, "actor 1 moves otherwise than it says, by 1.00 m/s"),
+        (AcceleratesByHalf, "actor 0 gains speed otherwise than it says"),
+        (ShowsThePolicyNoHeadings, "the policy saw"),
+        (ShowsThePolicyNoAccelerations, r"saw ahead speed up at 0.0 m/s\^2"),
+        (MisleadsThePolicyOnItsOwnPlace, "was told that it is at 21.0 m, which is at 20.0 m"),
+        (ShowsNothing, "it shows None"),
+        (ShowsNumbers, "a state is an ActorState"),
+        (SaysNothing, "its capabilities are None"),
         (DrivesOnWithoutThePolicy, "no PolicyError came through"),
         (SlowerEgo, "actor 0 .* off from what was told"),
     ],

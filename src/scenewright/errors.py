@@ -96,7 +96,19 @@ def told_by(error: BaseException) -> str:
     """Return an exception of somebody else's code in a line: what it is, what it says, and the line that raised it."""
     last = next(reversed(traceback.extract_tb(error.__traceback__)), None)
     line = f" (line {last.lineno} of {last.filename.rsplit('/', 1)[-1]}: {last.line})" if last else ""
-    return f"{type(error).__name__}: {(str(error).splitlines() or ['no message'])[0]}{line}"
+    try:
+        says = str(error).strip()
+    except Exception:  # somebody else's as well
+        says = ""
+    return f"{type(error).__name__}: {(says.splitlines() or ['no message'])[0]}{line}"
+
+
+def shown_as(value: object) -> str:
+    """Return a value of somebody else's as a message shows it."""
+    try:
+        return repr(value)
+    except Exception:  # its own repr() may do anything, and a whole number may have too many digits
+        return f"a {type(value).__name__}"
 
 
 class ScenewrightError(Exception):

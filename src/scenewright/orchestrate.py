@@ -11,13 +11,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from contextlib import closing
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from scenewright.errors import ScenewrightError
+from scenewright.errors import PolicyError, ScenewrightError, SimulatorError
 from scenewright.explain.approach import approach_of
 from scenewright.judge.tolerance import LOOSE, TIGHT, dimension_of
 from scenewright.judge.tolerance import Tolerance as Tolerances
@@ -29,6 +28,7 @@ from scenewright.roads.bodies import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M
 from scenewright.roads.grounding import Scene, ground
 from scenewright.roads.load import load_map
 from scenewright.simulate.loop import Rates
+from scenewright.simulate.port import SIMULATORS
 from scenewright.simulate.world import World
 from scenewright.solve.holding import not_held
 from scenewright.translate.sources import read_scenario
@@ -94,9 +94,15 @@ def orchestrate(
     if result.not_held or until == "plan":
         result.status = "gave up" if result.not_held else "success"
         return result
-    with closing(world.simulator):
-        _drive(request, result, world, planned, stages, progress)
-        result = _rehearse(request, result, world, stages, progress)
+    try:
+        with SIMULATORS.closing(world.simulator):
+            _drive(request, result, world, planned, stages, progress)
+            result = _rehearse(request, result, world, stages, progress)
+    except (PolicyError, SimulatorError) as error:
+        if result.run is None or result.verdict is None:
+            raise
+        # What was driven is kept: a later take could not begin, or the simulator did not close.
+        result.status, result.run.status, result.run.fault = "failed", "failed", error
     if result.status == "failure" and request.explain != "nothing":
         try:
             _explain(request, result, world, stages)

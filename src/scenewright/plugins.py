@@ -13,9 +13,9 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from importlib.metadata import EntryPoint, PackageNotFoundError, distribution, entry_points
 from types import MappingProxyType
-from typing import Generic, TypeVar, cast
+from typing import Any, Generic, TypeVar, cast
 
-from scenewright.errors import InputError, MissingExtraError, ScenewrightError, told_by
+from scenewright.errors import InputError, MissingExtraError, ScenewrightError, shown_as, told_by
 
 _REQUIREMENT = re.compile(r"""(?P<name>[\w.-]+)[^;]*;\s*extra\s*==\s*['"](?P<extra>[^'"]+)['"]\s*""")
 _OUR_PACKAGE = "scenewright"
@@ -34,6 +34,8 @@ class Kind(Generic[Part]):
         What messages call one, and what it does; ``scenewright NOUNs`` lists them.
     fault
         The error where one cannot be imported, or fails at its work.
+    capabilities
+        The kind of what each says that it can do, as its attribute of that name.
     libraries
         As in `missing_extra`.
     """
@@ -43,6 +45,7 @@ class Kind(Generic[Part]):
     noun: str
     does: str
     fault: type[ScenewrightError]
+    capabilities: type
     libraries: Mapping[str, str] = field(default_factory=dict)
 
     def known(self) -> dict[str, MissingExtraError | None]:
@@ -76,26 +79,49 @@ class Kind(Generic[Part]):
         missing = missing_extra(point, self.does, self.libraries)
         if missing is not None:
             raise missing
+        expected, fix = f"a class without arguments in {point.value}", "repair or reinstall the package that offers it"
         try:
-            return cast("Part", point.load()())
-        except Exception as error:  # whatever a plug-in does at import is its fault, and the user should read it
-            raise self.fault(
-                f"the {self.noun} {name!r} cannot be imported",
-                found=told_by(error),
-                expected=f"a class without arguments in {point.value}",
-                fix="repair or reinstall the package that offers it",
-            ) from error
+            part = point.load()()
+            can = getattr(part, "capabilities", None)
+        except (Exception, SystemExit) as error:  # whatever a plug-in does at import is its fault
+            what = f"the {self.noun} {name!r} cannot be imported"
+            raise self.fault(what, found=told_by(error), expected=expected, fix=fix) from error
+        if not isinstance(can, self.capabilities):
+            what = f"the {self.noun} {name!r} does not say what it can do"
+            expected += f", whose capabilities are {self.capabilities.__module__}.{self.capabilities.__qualname__}"
+            raise self.fault(what, found=shown_as(can), expected=expected, fix=fix)
+        return cast("Part", part)
+
+    def words(self) -> dict[str, str]:
+        """Return what each part can do, in words, or what it misses, or what is wrong with it."""
+        told = dict[str, str]()
+        for name, missing in self.known().items():
+            told[name] = f"{missing.message}: {missing.fix}" if missing is not None else ""
+            try:
+                told[name] = told[name] or cast(Any, self.called(name)).capabilities.words()
+            except ScenewrightError as error:
+                told[name] = f"{error.message}: {error.found}"
+        return told
 
     @contextmanager
     def blamed(self, part: Part) -> Iterator[None]:
         """Turn whatever a part raises inside into an error that says whose it is."""
         try:
             yield
-        except ScenewrightError:
+        except (ScenewrightError, KeyboardInterrupt):
             raise
-        except Exception as error:  # a part, and what it talks to, may raise anything
+        except BaseException as error:  # a part, and what it talks to, may raise anything, and end the process
             what = f"the {self.noun} {type(part).__name__} failed"
             raise self.fault(what, found=told_by(error), fix="repair it, or ask who wrote it") from error
+
+    @contextmanager
+    def closing(self, part: Part) -> Iterator[None]:
+        """Close a part in the end, whatever went wrong."""
+        try:
+            yield
+        finally:
+            with self.blamed(part):
+                cast(Any, part).close()
 
 
 def named(name: str, group: str, ours: Iterable[EntryPoint]) -> EntryPoint | None:

@@ -14,17 +14,22 @@ from dataclasses import dataclass, field
 from itertools import pairwise
 from math import cos, hypot, inf, isfinite
 
+import numpy as np
+
 from scenewright.drive.guarded import GuardedPolicy
 from scenewright.drive.protocol import EgoStart, Observation, VehicleState
 from scenewright.errors import PolicyError
+from scenewright.judge.kinematics import map_drift, speed_jump
+from scenewright.judge.tolerance import TIGHT
 from scenewright.motion.profile import Profile, chain
 from scenewright.program.text import parse_program
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import ground
 from scenewright.roads.load import load_map
+from scenewright.roads.path import wrap_rad
 from scenewright.simulate.port import Capabilities, Simulator, Snapshot, Start
 from scenewright.simulate.vehicles import EgoVehicle
-from scenewright.trace.model import ActorState
+from scenewright.trace.model import ActorState, ActorTrace
 
 _PROGRAM = """\
 Actor 0 (ego):
@@ -77,6 +82,7 @@ def check_simulator(make: Callable[[], Simulator], step_s: float = 0.02) -> None
     make().close()  # nothing was opened
     simulator, start = make(), _start()
     can = simulator.capabilities
+    _require(isinstance(can, Capabilities), f"its capabilities are {can}")
     errors = (can.place_error_m, can.speed_error_mps)
     _require(all(isfinite(error) and error >= 0.0 for error in errors), f"the declared errors make no sense: {errors}")
     try:
@@ -183,6 +189,7 @@ class _Run:
     def look(self, simulator: Simulator) -> None:
         """Look twice, and keep a copy: what was seen may not change afterwards."""
         now = simulator.observe()
+        _require(isinstance(now, Snapshot), f"looked at, it shows {now}")
         if self.seen:
             _require(dict(self._last) == self.seen[-1].actors, "what was seen before changed when it went on")
         self._last, kept = now.actors, Snapshot(now.time_s, dict(now.actors))
@@ -208,6 +215,8 @@ class _Run:
             self._check_ego()
         for actor in self.start.first:
             self._check_units(actor, [now.actors[actor] for now in self.after], [n.actors[actor] for n in self.before])
+            self._check_agreement(actor)
+        self._check_accels_told()
 
     @property
     def before(self) -> list[Snapshot]:
@@ -224,6 +233,7 @@ class _Run:
         _require(set(now.actors) == set(self.start.first), f"{at} there are actors {sorted(now.actors)}")
         for actor, state in now.actors.items():
             where = f"actor {actor} {at}: {state}"
+            _require(isinstance(state, ActorState), f"a state is an ActorState; {where}")
             _require(all(map(isfinite, state)), f"a state is made of finite numbers; {where}")
             _require(state.speed_mps >= -_ROUNDING, f"nobody drives backwards; {where}")
             x_m, y_m, heading_rad = self.start.scene.routes[actor].path.to_cartesian(state.s_m, state.d_m)
@@ -258,6 +268,15 @@ class _Run:
         same = abs(by_accel_mps - gained_mps) <= slack_mps
         _require(same, f"actor {actor} gained {gained_mps:.2f} m/s; by its accelerations it is {by_accel_mps:.2f} m/s")
 
+    def _check_agreement(self, actor: int) -> None:
+        """Check, as the judge does, that places, speeds and accelerations agree from step to step."""
+        columns = np.array([now.actors[actor] for now in self.before], dtype=np.float64).T
+        states = ActorTrace(np.array([now.time_s for now in self.before]), *columns)
+        most_mps = TIGHT.of("speed")
+        for what, off_mps in (("moves", map_drift(states)), ("gains speed", speed_jump(states))):
+            told = f"actor {actor} {what} otherwise than it says, by {off_mps:.2f} m/s in a step or a second"
+            _require(off_mps <= most_mps, f"{told}; by {most_mps:g} m/s at most, or no run in it is a success")
+
     def _check_told(self) -> None:
         asked, steps = len(self.told), len(self.motions)
         _require(asked == steps, f"the policy was asked {asked} times in {steps} steps")
@@ -273,6 +292,22 @@ class _Run:
             for actor, state in now.actors.items():
                 shown = observation.ego if actor == EGO else others[names[actor]]
                 _require(_same(shown, state), f"{at} saw {names[actor]} at {shown}, which is at {state}")
+            ego, route = observation.ego, self.start.scene.routes[EGO]
+            own = ego.route is route and ego.s_m is not None and abs(ego.s_m - now.actors[EGO].s_m) <= _ROUNDING
+            _require(
+                own, f"{at} was told that it is at {ego.s_m} m, which is at {now.actors[EGO].s_m} m, or another route"
+            )
+
+    def _check_accels_told(self) -> None:
+        ids = {actor.name: actor.id for actor in self.start.scene.program.actors}
+        for (observation, _), *both in zip(self.told, self.after, self.before, strict=False):
+            for shown in (observation.ego, *observation.others):
+                accels = [
+                    now.actors[ids[shown.name]].accel_mps2 for now in both
+                ]  # this step's, or still the last one's
+                known = min(abs(shown.accel_mps2 - accel_mpss) for accel_mpss in accels) <= _ROUNDING
+                what = f"at {both[1].time_s:.2f} s the policy saw {shown.name} speed up at {shown.accel_mps2} m/s^2"
+                _require(known, f"{what}, not at {accels}")
 
     def _check_ego(self) -> None:
         s_m, speed_mps = _EGO_FIRST
@@ -285,7 +320,8 @@ class _Run:
 
 def _same(shown: VehicleState, state: ActorState) -> bool:
     pairs = ((shown.x_m, state.x_m), (shown.y_m, state.y_m), (shown.speed_mps, state.speed_mps))
-    return all(abs(one - other) <= _ROUNDING for one, other in pairs)
+    turned_rad = wrap_rad(shown.heading_rad - state.heading_rad)
+    return all(abs(off) <= _ROUNDING for off in (turned_rad, *(one - other for one, other in pairs)))
 
 
 def _require(holds: bool, otherwise: str) -> None:

@@ -99,6 +99,19 @@ def test_killed_experiment_loses_nothing_and_counts_nothing_twice(process: Start
 
 
 @pytest.mark.usefixtures("in_one_process")
+def test_experiment_that_is_interrupted_twice_says_what_is_kept(process: Start, command: Command) -> None:
+    running = process(*HERE, "1")
+    wait_for_cases("here", 1, running)
+    running.send_signal(signal.SIGINT)
+    running.send_signal(signal.SIGINT)
+    _, err = running.communicate(timeout=60)
+    assert running.returncode == 130
+    assert f"of {len(KEYS)} cases, which are kept in here" in err
+    assert "nothing was written" not in err
+    assert "so far: it is not finished" in command("bench", "show", "here").stdout
+
+
+@pytest.mark.usefixtures("in_one_process")
 def test_interrupted_experiment_says_how_to_go_on(process: Start, command: Command) -> None:
     running = process(*HERE, "1", "--json")
     wait_for_cases("here", 1, running)
@@ -223,6 +236,9 @@ def test_diff_tells_what_turned_and_fails_where_asked(command: Command, done: li
         (("--rows", "81"), "no row 81"),
         (("--rows", "4-1"), "'4-1'"),
         (("--rows", "four"), "'four'"),
+        (("--rows", ","), "nothing is named here"),
+        (("--rows", "1", "--egos", " ,"), "nothing is named here"),
+        (("--rows", "1", "--methods", "rejection:x"), "no such number of samples"),
         (("--rows", "1", "--egos", "nobody"), "nobody"),
         (("--rows", "1", "--egos", "constant:speed_mps=fast"), "speed_mps"),
         (("--rows", "1", "--methods", "guessing"), "guessing"),
@@ -243,6 +259,21 @@ def test_wrong_input_is_told_in_the_house_form(command: Command, words: tuple[st
     assert list(Path().iterdir()) == [], "nothing is left behind"
     data = json.loads(command("bench", *words, "--json").stdout)
     assert (data["status"], data["exit_status"]) == ("error", 2)
+
+
+def test_a_seed_that_no_record_can_keep_is_refused(command: Command, folder: Path) -> None:
+    assert command("bench", "--rows", "1", "--seed", str(2**64), "--out", "here").exit_code == 2
+    assert not Path("here").exists()
+
+
+def test_descriptions_are_not_run_for_a_file_that_cannot_be_written(command: Command, folder: Path) -> None:
+    Path("text.txt").write_text("The ego drives west. An oncoming hero turns left.", encoding="utf-8")
+    Path("file").write_text("", encoding="utf-8")
+    result = command("bench", "success", "text.txt", "--workers", "0", "--out", "file/outcomes.jsonl")
+    assert result.exit_code == 2
+    assert "the system refused something" in result.stderr
+    assert "cases:" not in result.stderr, "nothing was run"
+    assert command("bench", "success", "text.txt", "--seed", "-1").exit_code == 2
 
 
 def test_unknown_case_is_told_with_the_nearest(command: Command, done: list[CaseRecord]) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from asyncio import CancelledError
 from math import inf, nan
 
 import numpy as np
@@ -11,11 +12,20 @@ from world import Car, route, start_of
 from scenewright.drive.constant import Constant
 from scenewright.drive.guarded import GuardedPolicy
 from scenewright.drive.protocol import EgoMotion, EgoStart, Envelope, Observation
-from scenewright.errors import PolicyError
+from scenewright.errors import PolicyError, told_by
 
 ROUTE = route("W")
 EGO = Car("ego", ROUTE, 50.0, 10.0)
 SEEN = Observation(1.5, EGO.state(secret=False), ())
+
+
+class WordlessError(Exception):
+    """What can be neither told nor shown."""
+
+    def __str__(self) -> str:
+        raise RuntimeError("no words")
+
+    __repr__ = __str__
 
 
 class Answers:
@@ -28,7 +38,7 @@ class Answers:
         pass
 
     def step(self, observation: Observation, dt_s: float) -> object:
-        if isinstance(self.answer, Exception):
+        if isinstance(self.answer, BaseException) and not isinstance(self.answer, WordlessError):
             raise self.answer
         return self.answer
 
@@ -57,7 +67,23 @@ def test_a_motion_passes() -> None:
 
 
 @pytest.mark.parametrize(
-    "answer", [nan, inf, -inf, None, "fast", True, [1.0], np.array([1.0]), 1j, np.float64("nan")], ids=repr
+    "answer",
+    [
+        nan,
+        inf,
+        -inf,
+        None,
+        "fast",
+        True,
+        [1.0],
+        np.array([1.0]),
+        1j,
+        np.float64("nan"),
+        10**400,
+        10**5000,
+        WordlessError(),
+    ],
+    ids=lambda answer: type(answer).__name__,
 )
 def test_what_is_not_a_motion_is_refused(answer: object) -> None:
     with pytest.raises(PolicyError, match=r"'mine' returned something that is not a motion at 1\.50 s"):
@@ -69,6 +95,7 @@ def test_what_is_not_a_motion_is_refused(answer: object) -> None:
     [
         (EgoMotion(nan, 0.0, 0.0, 1.0), "not made of finite numbers"),
         (EgoMotion(0.0, 0.0, 0.0, None), "not made of finite numbers"),  # type: ignore[arg-type]
+        (EgoMotion(10**400, 0.0, 0.0, 1.0), "not made of finite numbers"),
         (motion(forward_m=1.3), "jumped"),
         (motion(forward_m=-1.3), "jumped"),
         (motion(speed_mps=-1.0), "speed that the ego cannot have"),
@@ -107,6 +134,38 @@ def test_an_exception_names_policy_time_and_line() -> None:
     assert "ZeroDivisionError: division by zero" in caught.value.found
     assert "raise self.answer" in caught.value.found
     assert isinstance(caught.value.__cause__, ZeroDivisionError)
+
+
+@pytest.mark.parametrize(
+    ("fault", "told"),
+    [
+        (GeneratorExit(), "GeneratorExit: no message"),
+        (CancelledError("late"), "CancelledError: late"),
+        (SystemExit(3), "SystemExit: 3"),
+        (ValueError("\n\nfirst\nsecond"), "ValueError: first"),
+    ],
+    ids=repr,
+)
+def test_whatever_is_raised_is_told(fault: BaseException, told: str) -> None:
+    with pytest.raises(PolicyError, match="raised an exception in step") as caught:
+        guarded(fault).step(SEEN, 0.02)
+    assert caught.value.found is not None
+    assert caught.value.found.startswith(told)
+
+
+def test_an_exception_without_words_is_told_by_its_kind() -> None:
+    assert told_by(WordlessError()) == "WordlessError: no message"
+
+
+@pytest.mark.parametrize("name", ["envelope", "preferred_speed_mps"])
+def test_attributes_that_fail_are_the_policys_fault(name: str) -> None:
+    def fail(self: object) -> None:
+        raise ValueError("not yet")
+
+    policy = type("Mine", (Answers,), {name: property(fail, lambda self, value: None)})(0.0)
+    method = {"envelope": "reset"}.get(name, name)
+    with pytest.raises(PolicyError, match="raised an exception"):
+        getattr(GuardedPolicy(policy, "mine"), method)(start_of(ROUTE, 50.0, 10.0))
 
 
 @pytest.mark.parametrize("method", ["reset", "preferred_speed_mps"])
@@ -148,13 +207,23 @@ def test_what_no_car_can_do_is_clipped_and_found_once(asked: float, given: float
         (-4.0, Envelope(20.0, -3.0, 1.5), "promises -3 to 1.5"),
         (0.0, Envelope(9.0, -3.0, 1.5), "at most 9.00"),
         (motion(speed_mps=10.0), Envelope(9.0, -3.0, 1.5), "at most 9.00"),
+        (motion(speed_mps=10.05), Envelope(20.0, -3.0, 1.5), "asked for 2.50 m/s^2, but its envelope promises -3 to 1"),
+        (1.0, Envelope(20.0, -3.0, 1.5, holds_speed=True), "asked for 1.00 m/s^2, but its envelope promises to hold"),
+        (motion(speed_mps=9.9), Envelope(20.0, -9.0, 1.5, holds_speed=True), "promises to hold its speed"),
+        (motion(speed_mps=11.0), None, "drove 50.0 m/s^2 by a motion of its own, more than a car can do"),
     ],
 )
-def test_a_broken_promise_is_a_finding(answer: object, envelope: Envelope, words: str) -> None:
+def test_a_broken_promise_is_a_finding(answer: object, envelope: Envelope | None, words: str) -> None:
     policy = guarded(answer, envelope)
     policy.step(SEEN, 0.02)
     (finding,) = policy.findings
     assert words in finding
+
+
+def test_rounding_in_a_vehicle_model_breaks_no_promise() -> None:
+    policy = guarded(motion(speed_mps=10.0005), Envelope(10.0, 0.0, 0.0, holds_speed=True))
+    policy.step(SEEN, 0.02)
+    assert policy.findings == []
 
 
 @pytest.mark.parametrize(

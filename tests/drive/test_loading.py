@@ -15,6 +15,9 @@ from scenewright.drive.protocol import EgoPolicy
 from scenewright.errors import PolicyError
 
 MINE = """
+from pathlib import Path
+from typing import Literal
+
 class Mine:
     def __init__(
         self, keep_mps: float = 8.0, count: int = 3, loud: bool = False, label="x", target: "float | None" = None
@@ -23,8 +26,21 @@ class Mine:
     def reset(self, start): pass
     def step(self, observation, dt_s): return 0.0
 
+class Chooses(Mine):
+    def __init__(
+        self, mode: Literal["soft", "hard"] = "soft", steps: Literal[1, 2] | None = None, at: Path = Path("x")
+    ):
+        self.got = (mode, steps, at)
+
 class Needy(Mine):
     def __init__(self, keep_mps: float): raise ValueError(f"no {keep_mps}")
+
+class Leaves(Mine):
+    def __init__(self): raise SystemExit(3)
+
+class NotYet(Mine):
+    @property
+    def step(self): raise KeyError("model")
 
 class NotAPolicy: pass
 constant = 3
@@ -72,7 +88,24 @@ def test_a_users_class_loads_from_a_file(folder: Path, tmp_path_factory: pytest.
     elsewhere = tmp_path_factory.mktemp("elsewhere") / "policy_in_a_file.py"
     elsewhere.write_text(MINE, encoding="utf-8")
     assert load_policy(f"{elsewhere}:Mine").policy.got[0] == 8.0
-    sys.modules.pop("policy_in_a_file")
+
+
+def test_an_option_may_be_one_of_few(folder: Path) -> None:
+    policy, _, options = load_policy("my_policy_here:Chooses:mode=hard,steps=2")
+    assert policy.got[:2] == ("hard", 2)
+    assert options == {"mode": "hard", "steps": 2}
+    assert load_policy("my_policy_here:Chooses:steps=none").policy.got[1] is None
+    with pytest.raises(PolicyError) as caught:
+        load_policy("my_policy_here:Chooses:mode=medium")
+    assert (caught.value.expected, caught.value.fix) == ("soft or hard", "write mode=soft, for instance")
+
+
+def test_files_of_one_name_are_two_and_may_be_called_like_any_module(folder: Path) -> None:
+    for keep_mps, file in ((6.0, folder / "one" / "types.py"), (11.0, folder / "other" / "types.py")):
+        file.parent.mkdir()
+        file.write_text(MINE.replace("keep_mps: float = 8.0", f"keep_mps: float = {keep_mps}"), encoding="utf-8")
+    assert load_policy("one/types.py:Mine").policy.got[0] == 6.0
+    assert load_policy("other/types.py:Mine").policy.got[0] == 11.0
 
 
 def test_a_policy_of_a_package_loads(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -103,6 +136,11 @@ FAULTS = [
     ("my_policy_here:mine", "has no class 'mine'", "did you mean 'Mine'?"),
     ("my_policy_here:constant", "has no class 'constant'", "check the name"),
     ("my_policy_here:NotAPolicy", "is not a policy", "add the missing methods"),
+    ("my_policy_here:Chooses:at=town", "has the wrong type", "annotate 'at' as a number"),
+    ("my_policy_here:Leaves", "cannot be built", "check the options"),
+    ("my_policy_here:NotYet", "cannot be built", "check the options"),
+    ("nowhere/my_policy.py:Mine", "there is no module 'my_policy'", "check the name"),
+    ("faulty_policy_here.py:Mine", "cannot be imported", "make `python faulty_policy_here.py` work first"),
     ("my_policy_here:Needy", "cannot be built", "check the options"),
     ("my_policy_here:Needy:keep_mps=2", "cannot be built", "check the options"),
     ("my_policy_here:Mine:count=1.5", "'count' of 'my_policy_here:Mine' has the wrong type", "write count=1"),

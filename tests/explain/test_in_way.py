@@ -41,7 +41,7 @@ def test_until_the_ego_has_come_who_is_to_be_later_is_in_its_way() -> None:
     later = "A0(t1) == A1(t1)\nA0x(t1) == conflict_point - 45\nA1x(t1) == conflict_point - 16\n"
     passes = "A0x(t2) == conflict_point\nA1x(t2) == conflict_point\nA1(t2) - A0(t2) == 2\n"
     result = orchestrate(
-        Request(program("S, E", "t0, go, t1, go, t2", later + passes, "E"), ego="idm", takes=1, replan_hz=4.0)
+        Request(program("S, E", "t0, go, t1, go, t2", later + passes, "E"), ego="idm", takes=1, replan_hz=5.0)
     )
     assert result.status == "failure"
     assert result.verdict is not None

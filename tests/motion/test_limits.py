@@ -79,3 +79,11 @@ def test_signs_as_driven_tell_what_one_takes_them_for() -> None:
     drive = Profile(chain(0.0, 50.0, 4.0, [(5.0, 0.0, 0), (5.0, 0.4, 0), (5.0, -1.0, 0), (20.0, 0.1, 0)]))
     found = posted.as_driven(drive)
     assert [found.at_mps(s_m) for s_m in (20.0, 150.0, 250.0)] == pytest.approx([6.0, 6.0, 8.4])
+
+
+def test_one_that_never_drives_faster_has_no_faster_limits() -> None:
+    limits = limits_on(find_route(T, headings=("W",)), T)
+    slow = limits.no_faster(9.0)
+    assert slow.speed_max_mps == slow.natural_approach_speed_mps == slow.turn_speed_max_mps == 9.0
+    assert (slow.brake_max_mpss, slow.pace) == (limits.brake_max_mpss, limits.pace)
+    assert limits.no_faster(100.0).natural_speed_mps == limits.natural_speed_mps

@@ -15,12 +15,19 @@ from scenewright.roads.readers import GROUP, endings, reader_for
 
 READER = """
 from dataclasses import replace
-from scenewright.roads import load_map
+from scenewright.roads import RoadMap, load_map
 
 def read(source):
     word = source.read_text()
     if word == "broken":
         raise ZeroDivisionError("no lanes to divide by")
+    if word in ("loose", "dots"):
+        lanes = dict(load_map("t_intersection").lanes)
+        first = next(iter(lanes.values()))
+        changed = {"successors": ("9.9.9",)} if word == "loose" else {"centerline_xy": first.centerline_xy[:1]}
+        return RoadMap(word, source, {**lanes, first.id: replace(first, **changed)})
+    if word == "leaves":
+        raise SystemExit(3)
     return replace(load_map("t_intersection"), name=word) if word != "nothing" else None
 """
 
@@ -84,6 +91,9 @@ def test_no_package_takes_the_place_of_ours(package: Path) -> None:
     ("name", "word", "message", "found"),
     [
         ("a.word", "broken", "failed on this one", "ZeroDivisionError: no lanes to divide by"),
+        ("g.word", "loose", "failed on this one", "is linked to 9.9.9, which is not there"),
+        ("h.word", "dots", "failed on this one", "is not drawn by two finite points or more"),
+        ("f.word", "leaves", "failed on this one", "SystemExit: 3"),
         ("b.word", "nothing", "failed on this one", "it returned a NoneType"),
         ("c.bad", "mine", "cannot be imported", "ImportError: nothing of this"),
         ("d.none", "mine", "not a kind of map that can be read", "'.none'"),

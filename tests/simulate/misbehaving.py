@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from scenewright.drive.protocol import EgoMotion, EgoStart, Observation
+from scenewright.drive.protocol import EgoMotion, EgoStart, Envelope, Observation
 
 LATE_S = 3.0
 
@@ -77,3 +77,17 @@ class Drives(_Late):
         ego = observation.ego
         assert ego.s_m is not None
         return EgoMotion(*self.route.path.pose(ego.s_m + self.speed_mps * dt_s), self.speed_mps)
+
+
+@dataclass
+class Modest(_Late):
+    """Holds the speed that it starts with, and promises that this is no more than so."""
+
+    most_mps: float = 6.0
+    holds_speed: bool = True
+
+    def __post_init__(self) -> None:
+        self.envelope = Envelope(self.most_mps, -3.0, 3.0, self.holds_speed)
+
+    def misbehave(self, observation: Observation) -> float:
+        return 0.0

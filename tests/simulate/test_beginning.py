@@ -20,7 +20,7 @@ from scenewright.request import Request, Stages
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.roads.conflicts import shared_offset_m
 from scenewright.simulate import beginning
-from scenewright.simulate.beginning import first_plan, is_timed_by_ego
+from scenewright.simulate.beginning import first_plan, first_states, is_timed_by_ego
 from scenewright.simulate.ego_start import EgoFirstState, ego_starts
 from scenewright.simulate.world import World
 from scenewright.solve.arrival import linear_conditions
@@ -85,6 +85,12 @@ def test_the_first_start_that_does_is_taken(ego: str) -> None:
     assert [record.time_s for record in planner.records] == [0.0]
     ego_motion = attempt.plan.profiles[EGO]
     assert ego_motion.state(0.0)[:2] == pytest.approx((start.s_m, start.speed_mps))
+
+
+@pytest.mark.parametrize("holds_speed", [True, False])
+def test_nobody_is_started_faster_than_it_promises_to_drive(holds_speed: bool) -> None:
+    world = world_of(YIELDS_DISTANCE, f"misbehaving:Modest:most_mps=6,holds_speed={'yes' if holds_speed else 'no'}")
+    assert all(start.speed_mps <= 6.0 for start in first_states(world))
 
 
 @pytest.mark.parametrize("ego", ["constant", "idm", "staller"])

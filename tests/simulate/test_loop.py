@@ -84,6 +84,15 @@ def test_interaction_begins_at_the_trigger_and_not_before(story: str, ego: str, 
     assert np.all(sense * after >= 0.6)
 
 
+@pytest.mark.parametrize("replan_hz", [0.5, 10.0, 30.0, 40.0, 50.0])
+def test_plans_are_made_again_as_often_as_was_asked(replan_hz: float) -> None:
+    """Steps are 0.02 s: of 30 ticks a second some come after one of them, some after two."""
+    run = orchestrate(Request(STORIES["yields, distance"], ego="constant", replan_hz=replan_hz, takes=1)).run
+    assert run is not None
+    ticks = sum(record.time_s > 0.0 for record in run.replans)
+    assert ticks == pytest.approx(run.trace.duration_s * replan_hz, abs=1.0)
+
+
 @every_run
 def test_record_tells_every_tick(story: str, ego: str, seed: int) -> None:
     run = run_of(story, ego, seed)

@@ -15,8 +15,9 @@ from scenewright.errors import InputError, SimulatorError
 from scenewright.judge.files import judge_run_directory
 from scenewright.motion.profile import Profile
 from scenewright.orchestrate import orchestrate
+from scenewright.program.types import EGO
 from scenewright.request import EXIT_STATUS, Request, Result
-from scenewright.simulate.port import GROUP, SIMULATORS, Capabilities, Start, at_pose, on_route
+from scenewright.simulate.port import GROUP, SIMULATORS, Capabilities, Snapshot, Start, at_pose, on_route
 from scenewright.trace.files import read_trace
 from stories import STORIES, Scripted, Stage
 
@@ -42,15 +43,80 @@ class CannotStart(toys.Bicycles):
         raise ConnectionRefusedError("nobody answers")
 
 
+class Late(toys.Bicycles):
+    """Shows something else than it should after a while."""
+
+    def observe(self) -> Snapshot:
+        now = super().observe()
+        return now if now.time_s < LOST_S - 0.01 else self.show(now)
+
+    def show(self, now: Snapshot) -> Snapshot:
+        raise NotImplementedError
+
+
+class LosesTheEgo(Late):
+    def show(self, now: Snapshot) -> Snapshot:
+        return Snapshot(now.time_s, {actor: state for actor, state in now.actors.items() if actor != EGO})
+
+
+class IsNowhere(Late):
+    def show(self, now: Snapshot) -> Snapshot:
+        return Snapshot(now.time_s, {**now.actors, EGO: now.actors[EGO]._replace(speed_mps=float("nan"))})
+
+
+class ShowsNothing(Late):
+    def show(self, now: Snapshot) -> Snapshot:
+        return None  # type: ignore[return-value]
+
+
+class ShowsNumbers(Late):
+    def show(self, now: Snapshot) -> Snapshot:
+        return Snapshot(now.time_s, {actor: tuple(state) for actor, state in now.actors.items()})  # type: ignore[misc]
+
+
+class StandsStill(Late):
+    def show(self, now: Snapshot) -> Snapshot:
+        return Snapshot(LOST_S - 0.02, now.actors)
+
+
+class EndsTheProcess(Late):
+    def show(self, now: Snapshot) -> Snapshot:
+        raise SystemExit(5)
+
+
+class IsNotClosed(toys.Bicycles):
+    def close(self) -> None:
+        raise ConnectionResetError("still there")
+
+
+class StartsOnce(toys.Bicycles):
+    """Starts for one take that misses, and never again."""
+
+    capabilities = Capabilities(place_error_m=9.0, speed_error_mps=9.0)
+
+    def reset(self, start: Start, step_s: float) -> None:
+        if hasattr(self, "cars"):
+            raise ConnectionRefusedError("only once")
+        super().reset(start, step_s)
+
+    def apply(self, heroes: Mapping[int, Profile]) -> None:
+        super().apply(heroes)
+        self.motions = {}
+
+
+LATE = (LosesTheEgo, IsNowhere, ShowsNothing, ShowsNumbers, StandsStill, EndsTheProcess)
+
+
 @pytest.fixture(autouse=True)
 def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Somebody else's package, which offers the simulators of these tests."""
     about = tmp_path / "toys-1.0.dist-info"
     about.mkdir()
     (about / "METADATA").write_text("Metadata-Version: 2.1\nName: toys\nVersion: 1.0\n")
-    for each in (IsLost, CannotStart):
+    for each in (IsLost, CannotStart, IsNotClosed, StartsOnce, *LATE):
         monkeypatch.setattr(toys, each.__name__, each, raising=False)
     offered = {"bicycles": "Bicycles", "stack": "OwnStack", "lost": "IsLost", "away": "CannotStart"}
+    offered |= {each.__name__.lower(): each.__name__ for each in (IsNotClosed, StartsOnce, *LATE)}
     lines = [f"[{GROUP}]", *(f"{name} = toys:{each}" for name, each in offered.items())]
     (about / "entry_points.txt").write_text("\n".join(lines))
     monkeypatch.syspath_prepend(tmp_path)
@@ -128,6 +194,24 @@ def test_what_was_driven_until_the_connection_broke_is_kept(tmp_path: Path) -> N
     assert "the simulator IsLost failed" in str(manifest(out)["fault"])
     assert "ConnectionResetError: nobody there" in str(manifest(out)["fault"])
     assert read_trace(out / "trace.parquet").duration_s == pytest.approx(LOST_S - 0.02)
+    judge_run_directory(out)
+
+
+@pytest.mark.parametrize("late", LATE)
+def test_what_it_shows_is_its_own_fault_where_nobody_can_drive_on_it(late: type[Late], tmp_path: Path) -> None:
+    out = tmp_path / "run"
+    result = run(late.__name__, out)
+    assert result.status == "failed"
+    assert f"the simulator {late.__name__} failed" in str(manifest(out)["fault"])
+    assert read_trace(out / "trace.parquet").duration_s == pytest.approx(LOST_S - 0.02)
+
+
+@pytest.mark.parametrize(("name", "words"), [("IsNotClosed", "still there"), ("StartsOnce", "only once")])
+def test_what_was_driven_is_kept_where_it_does_not_close_or_start_again(name: str, words: str, tmp_path: Path) -> None:
+    out = tmp_path / "run"
+    result = orchestrate(Request(STORIES["yields, distance"], simulator=name, takes=2, out=out))
+    assert (result.status, EXIT_STATUS[result.status]) == ("failed", 2)
+    assert words in str(manifest(out)["fault"])
     judge_run_directory(out)
 
 

@@ -5,9 +5,11 @@ from __future__ import annotations
 import pytest
 
 from scenewright.errors import ScenewrightError
+from scenewright.orchestrate import orchestrate
 from scenewright.plan.prediction import ConstantSpeed
 from scenewright.program.text import parse_program
 from scenewright.program.types import EGO
+from scenewright.request import Request
 from scenewright.roads.grounding import ground
 from scenewright.roads.load import load_map
 from scenewright.simulate.loop import Rates
@@ -29,6 +31,23 @@ def test_a_promise_bounds_the_ego() -> None:
     assert steady.holds_speed
     assert not world("idm").ego_bounds.holds_speed
     assert world("idm").ego_bounds.accel_max_mpss < EgoBounds().accel_max_mpss
+
+
+FAST = STORIES["yields, distance"] + "A0v(t0) == 13\n"
+
+
+@pytest.mark.parametrize("ego", ["constant:speed_mps=8", "idm:speed_mps=8"])
+def test_an_ego_that_is_told_to_start_faster_than_it_would_drive_slows_down(ego: str) -> None:
+    bounds = world(ego, FAST).ego_bounds
+    assert (bounds.speed_max_mps, bounds.holds_speed) == (13.0, False)
+    assert bounds.brake_max_mpss >= 2.0
+    assert world(ego, FAST).choose_and_check().answer == "feasible"
+    assert orchestrate(Request(FAST, ego=ego, explain="nothing")).status == "success"
+
+
+def test_one_that_starts_as_it_drives_promises_what_it_did() -> None:
+    assert world("constant:speed_mps=13", FAST).ego_bounds == EgoBounds(13.0, 0.0, 0.0, True)
+    assert world("constant", FAST).ego_bounds == world("constant").ego_bounds
 
 
 @pytest.mark.parametrize(

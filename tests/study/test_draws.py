@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -52,6 +54,27 @@ def test_everyday_values_are_everyday(seed: tuple[int, ...]) -> None:
         "hero_deceleration_mpss": (1.5, 6),
     }.items():
         assert low - 0.005 <= values[name] <= high + 0.005, name
+
+
+@given(seeds)
+def test_a_range_of_the_program_is_what_is_drawn_from(seed: tuple[int, ...]) -> None:
+    given = [
+        Parameter("ego_gap_m", low=Fraction(20), high=Fraction(22)),
+        Parameter("initial_ego_gap_m", low=Fraction(95), high=Fraction(96)),
+        Parameter("hero_gap_ft", low=Fraction(200)),
+        Parameter("hero_speed_kph", high=Fraction(12)),
+        Parameter("hero_s", low=Fraction("1.501"), high=Fraction("1.504")),
+    ]
+    values = draw_parameters(given, seed)
+    for each in given:
+        assert float(each.low or 0) <= values[each.name] <= float(each.high or 1000), each.name
+
+
+def test_all_of_a_range_is_drawn_from() -> None:
+    given = [Parameter("ego_gap_m", low=Fraction(20), high=Fraction(22))]
+    drawn = [draw_parameters(given, (seed,))["ego_gap_m"] for seed in range(50)]
+    assert min(drawn) < 20.3
+    assert max(drawn) > 21.7
 
 
 @given(seeds)

@@ -13,7 +13,7 @@ from typer.testing import CliRunner
 
 from scenewright.cli.app import app
 from scenewright.cli.bench_tables import outcome_data, outcome_tallies
-from scenewright.errors import InputError
+from scenewright.errors import InputError, PolicyError, ScenewrightError
 from scenewright.plan import planner
 from scenewright.study.causes import CAUSES, INFEASIBLE
 from scenewright.study.evaluation import (
@@ -80,6 +80,17 @@ def test_cases_are_all_combinations_and_draws_are_shared_by_egos() -> None:
     assert set(cases[0].parameters) == {"ego_gap_m", "hero_gap_m"}
 
 
+def test_an_ego_that_does_not_exist_is_refused_before_anything_is_run() -> None:
+    with pytest.raises(PolicyError, match="no such ego policy"):
+        make_cases([YIELDS], ["idm", "nobody"], 1, 0)
+
+
+def test_a_description_that_cannot_be_read_is_named() -> None:
+    with pytest.raises(ScenewrightError) as refused:
+        make_cases([YIELDS, Description("wheels", "Two wheels turn.")], ["idm"], 1, 0)
+    assert str(refused.value).startswith("wheels:1:1: ")
+
+
 def test_cases_depend_on_their_seed_alone() -> None:
     first, again, other = (make_cases([YIELDS], ["idm"], 2, seed) for seed in (5, 5, 6))
     assert first == again
@@ -96,6 +107,7 @@ def test_command_says_all_that_makes_the_case(takes: int) -> None:
     assert [value for name, value in options if name == "-p"] == ["a_m=12.5", "b_s=3.0"]
     assert dict(options)["--ego"] == case.ego
     assert dict(options)["--seed"] == "9"
+    assert dict(options)["--translator"] == "offline", "whatever model is configured: none was asked"
     assert dict(options).get("--takes", "3") == str(takes)
 
 
@@ -247,7 +259,17 @@ def test_descriptions_from_json_folder_and_file(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     "content",
-    ["{", "[]", '{"id": 1, "text": "x"}', '[{"id": 1}]', "[1, 2]", '"text"', "null", "3"],
+    [
+        "{",
+        "[]",
+        '[{"id": 1, "text": "x"}, {"id": "1", "text": "y"}]',
+        '{"id": 1, "text": "x"}',
+        '[{"id": 1}]',
+        "[1, 2]",
+        '"text"',
+        "null",
+        "3",
+    ],
 )
 def test_what_holds_no_descriptions_is_told(tmp_path: Path, content: str) -> None:
     path = tmp_path / "texts.json"

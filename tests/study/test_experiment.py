@@ -111,6 +111,10 @@ def test_folder_of_something_else_is_left_alone(tmp_path: Path) -> None:
         ({"rows": (1, 81)}, InputError, "no row 81"),
         ({"egos": ("idm", "nobody")}, PolicyError, "nobody"),
         ({"methods": ("guessing",)}, InputError, "guessing"),
+        ({"methods": ("rejection:0",)}, InputError, "no such number of samples"),
+        ({"methods": ("scenewright:5",)}, InputError, "takes no option"),
+        ({"methods": ("synchronise:fast",)}, InputError, "takes no option"),
+        ({"methods": ("follower:nobody",)}, PolicyError, "nobody"),
     ],
 )
 def test_what_does_not_exist_is_refused_before_anything_is_made(

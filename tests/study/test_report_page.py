@@ -14,6 +14,7 @@ from test_report_figures import CELLS, EXTRAS, material
 
 from scenewright.errors import OutputError
 from scenewright.study.report import report as whole
+from scenewright.study.report.page import render_page
 from scenewright.study.report.report import Extras, compose, sections_of, write_report
 
 HOSTILE = '</script><img src=x onerror="alert(1)"> & "quoted" 车'
@@ -49,6 +50,12 @@ def test_the_page_names_every_figure_and_table_and_they_are_there(written: Path)
     assert all(f'id="figure-{name}"' in text for name in plots)
     assert all(f'id="table-{name}"' in text for name in shown)
     assert all(f'href="tables/{name}.csv"' in text for name in written_down if name not in nothing_in(written))
+
+
+def test_what_there_is_one_of_is_told_so() -> None:
+    settings = {"rows": [1], "egos": ["idm", "noisy"], "methods": ["scenewright"], "draws": 1, "takes": 3}
+    text = render_page(settings, 2, [], {})
+    assert "2 cases · 1 row · 2 egos · 1 method · 1 draw · 3 takes · not finished" in text
 
 
 def nothing_in(written: Path) -> set[str]:

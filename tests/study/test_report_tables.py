@@ -108,6 +108,12 @@ def test_every_case_of_ours_is_a_success_or_listed(records: list[CaseRecord]) ->
     assert len(proofs_table(records).rows) == len(infeasible)
 
 
+def test_that_nothing_failed_is_said_only_where_something_was_run() -> None:
+    assert failures_table([], Path()).empty == "No case is of our method."
+    succeeded = [replace(record, cause="success") for record in made_up(rows=[1], draws=1)]
+    assert "succeeded" in failures_table(ours(succeeded), Path()).empty
+
+
 @given(stores())
 @settings(max_examples=30)
 def test_takes_add_up_to_the_counted_cases_of_ours(records: list[CaseRecord]) -> None:

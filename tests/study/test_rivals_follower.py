@@ -130,6 +130,12 @@ def test_what_a_car_cannot_do_is_cut() -> None:
     assert float(hero.speed_mps.min()) == 0.0
 
 
+def test_a_model_that_returns_no_number_is_told() -> None:
+    run, _, _ = follow(Recorder(answer=float("nan")))
+    assert run.status == "failed"
+    assert "the driver model returned no motion at 1.0" in str(run.fault)
+
+
 def test_a_motion_counts_by_its_speed() -> None:
     run, _, _ = follow(Recorder(answer=EgoMotion(0.0, 0.0, 0.0, 3.0)))
     hero = run.trace.actors["hero"]

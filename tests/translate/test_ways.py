@@ -6,6 +6,7 @@ import pytest
 
 from scenewright.errors import TranslationError
 from scenewright.roads.load import load_map
+from scenewright.roads.model import RoadMap
 from scenewright.translate.phrases import Phrases
 from scenewright.translate.read.sentences import read
 from scenewright.translate.story import Quantity, Story
@@ -70,6 +71,9 @@ def test_no_way_that_fits_is_refused_with_those_that_there_are() -> None:
     with pytest.raises(TranslationError, match="no way on t_intersection fits what is said of the hero") as caught:
         ways("The ego is headed west and goes straight on. The hero is headed north and turns left.")
     assert "right" in (caught.value.expected or "")
+    with pytest.raises(TranslationError, match="no way on nothing fits") as caught:
+        put_on_map(read("The ego is headed west. The hero is oncoming."), RoadMap("nothing", MAP.source, {}), {})
+    assert caught.value.expected == "a map with at least one way through"
 
 
 def test_who_has_a_gap_at_the_start_and_no_way_begins_in_that_lane() -> None:

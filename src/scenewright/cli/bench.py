@@ -17,6 +17,7 @@ import typer
 from scenewright.cli import INTERRUPTED
 from scenewright.cli.bench_options import (
     CORES,
+    MOST_SEED,
     ResultFolder,
     Workers,
     command_typed,
@@ -69,7 +70,7 @@ def experiment(
         str, typer.Option(metavar="NAMES|all", help="scenewright and its rivals, commas between.", show_default=False)
     ] = "",
     takes: Annotated[int, typer.Option(min=1, max=20, help="Takes a case may have.")] = 3,
-    seed: Annotated[int, typer.Option(min=0, help="Seed of draws, egos and methods.")] = 0,
+    seed: Annotated[int, typer.Option(min=0, max=MOST_SEED, help="Seed of draws, egos and methods.")] = 0,
     workers: Workers = CORES,
     out: Annotated[
         Path | None,
@@ -121,7 +122,10 @@ def _carry_out(made: Experiment, workers: int, as_json: bool, report: bool) -> N
             errors = f", {so_far.errors} errors" if so_far.errors else ""
             show("cases", so_far.done, so_far.total, f"{so_far.successes} successes{errors}")
 
-        finished = made.run(workers, progress, stop)
+        try:
+            finished = made.run(workers, progress, stop)
+        except KeyboardInterrupt:  # the second one; what is done is kept all the same
+            finished = False
     if not finished:
         _tell_interrupted(made, as_json)
         raise typer.Exit(INTERRUPTED)
@@ -341,7 +345,7 @@ def success(
     egos: Annotated[str, typer.Option(help="Ego policies, with commas between.")] = "constant,idm,dawdler",
     draws: Annotated[int, typer.Option(min=1, help="Parameter draws a description.")] = 5,
     takes: Annotated[int, typer.Option(min=1, help="Takes a case may have; 1 for the first take alone.")] = 3,
-    seed: Annotated[int, typer.Option(help="Seed of the draws and of the egos.")] = 0,
+    seed: Annotated[int, typer.Option(min=0, help="Seed of the draws and of the egos.")] = 0,
     workers: Workers = CORES,
     out: Annotated[Path | None, typer.Option(help="Write every outcome to this file, as JSON lines.")] = None,
     as_json: AsJson = False,
@@ -353,6 +357,9 @@ def success(
         from scenewright.study.evaluation import in_order, make_cases, read_descriptions, run_cases, write_outcomes
 
         cases = make_cases(read_descriptions(source), egos_of(egos), draws, seed, takes)
+        if out is not None:  # what cannot be written is told before anything is run
+            out.parent.mkdir(parents=True, exist_ok=True)
+            out.open("a").close()
         outcomes = in_order(tracked(stderr(), "cases", run_cases(cases, workers), len(cases)), cases)
         if out is not None:
             write_outcomes(outcomes, out)

@@ -16,6 +16,7 @@ import typer
 from scenewright.errors import InputError
 
 CORES = os.cpu_count() or 1
+MOST_SEED = 2**62  # records keep the seed of a case, this one with its draw and row added, in 64 bits
 Workers = Annotated[
     int, typer.Option("--workers", min=0, help="Processes; by default one a core, 0 for none beside this one.")
 ]
@@ -25,7 +26,16 @@ ResultFolder = Annotated[
 
 
 def _parts(text: str) -> list[str]:
-    return [piece.strip() for piece in text.split(",") if piece.strip()]
+    """Return what stands between commas; a comma within options parts nothing."""
+    found: list[str] = []
+    for part in filter(None, (piece.strip() for piece in text.split(","))):
+        if found and "=" in part and ":" not in part:
+            found[-1] += f",{part}"
+        else:
+            found.append(part)
+    if text and not found:
+        raise InputError("nothing is named here", found=repr(text), fix="name something, or leave the option out")
+    return list(dict.fromkeys(found))
 
 
 def rows_of(text: str) -> tuple[int, ...]:
@@ -34,7 +44,7 @@ def rows_of(text: str) -> tuple[int, ...]:
     Raises
     ------
     InputError
-        Where a part is neither a number nor a range.
+        Where a part is neither a number nor a range, or there is none.
 
     Examples
     --------
@@ -55,7 +65,7 @@ def rows_of(text: str) -> tuple[int, ...]:
 
 
 def egos_of(text: str) -> tuple[str, ...]:
-    """Return egos from ``idm,constant:speed_mps=12,keep=1`` or ``all``; a comma within options parts no egos.
+    """Return egos from ``idm,constant:speed_mps=12,keep=1`` or ``all``.
 
     >>> egos_of("idm,own.py:Ego:a=1,b=2,noisy")
     ('idm', 'own.py:Ego:a=1,b=2', 'noisy')
@@ -64,20 +74,14 @@ def egos_of(text: str) -> tuple[str, ...]:
         from scenewright.drive.loading import BUILT_IN
 
         return tuple(BUILT_IN)
-    found: list[str] = []
-    for part in _parts(text):
-        if found and "=" in part and ":" not in part:
-            found[-1] += f",{part}"
-        else:
-            found.append(part)
-    return tuple(dict.fromkeys(found))
+    return tuple(_parts(text))
 
 
 def methods_of(text: str) -> tuple[str, ...]:
     """Return methods by name from a list with commas, or ``all``."""
     from scenewright.study.rivals import METHODS
 
-    return tuple(METHODS) if text.strip() == "all" else tuple(dict.fromkeys(_parts(text)))
+    return tuple(METHODS) if text.strip() == "all" else tuple(_parts(text))
 
 
 def given_options(context: typer.Context) -> dict[str, object]:

@@ -73,7 +73,10 @@ def print_summary(console: Console, results: Results) -> None:
     """Print the tables of an experiment."""
     records = results.records
     by_method = tally_by(records, lambda r: r.method, total="")
-    console.print(f"{len(records)} cases; takes: the first, and the best of at most {results.settings.get('takes', 1)}")
+    so_far = "" if "finished" in results.settings else " so far: it is not finished"
+    console.print(
+        f"{len(records)} cases{so_far}; takes: the first, and the best of at most {results.settings.get('takes', 1)}"
+    )
     console.print("rates leave out what is proven infeasible, and egos that never met the condition")
     console.print("ego let it: tight, best take, without the cases in which the ego left no room\n")
     lead = by_method[0].name if by_method else ""

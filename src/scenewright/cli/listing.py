@@ -84,10 +84,7 @@ def _list_parts(kind: Kind[Any], as_json: bool) -> None:
     """Print what each part can do in the words of its capabilities, or what it misses."""
     from scenewright.cli import tables
 
-    described = {
-        name: kind.called(name).capabilities.words() if missing is None else f"{missing.message}: {missing.fix}"
-        for name, missing in kind.known().items()
-    }
+    described = kind.words()
     if as_json:
         print_json(described)
         return

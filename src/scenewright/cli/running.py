@@ -32,7 +32,6 @@ from scenewright.cli.options import (
 )
 from scenewright.cli.translators import Asked, with_asked
 from scenewright.cli.translators import ask as on_terminal
-from scenewright.errors import PolicyError
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -144,15 +143,7 @@ def carry_out(request: Request, until: Stop = "end", quiet: bool = False) -> Res
 
         if request.translation.ask is not None:
             request = replace(request, translation=replace(request.translation, ask=ask))
-        try:
-            return orchestrate(request, report, progress, until)
-        except SystemExit as error:  # else a policy that calls sys.exit() would decide on our exit status
-            raise PolicyError(
-                f"policy {request.ego!r} ended the process",
-                found=f"SystemExit({error.code!r})",
-                expected="a policy that returns or raises",
-                fix="leave sys.exit() and the like out of the policy",
-            ) from None
+        return orchestrate(request, report, progress, until)
 
 
 @contextmanager

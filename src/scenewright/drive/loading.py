@@ -13,11 +13,12 @@ from collections.abc import Callable
 from difflib import get_close_matches
 from importlib import import_module
 from importlib.metadata import entry_points
+from importlib.util import module_from_spec, spec_from_file_location
 from pathlib import Path
-from typing import Any, NamedTuple, Union, cast, get_args, get_origin, get_type_hints
+from typing import Any, Literal, NamedTuple, Union, cast, get_args, get_origin, get_type_hints
 
 from scenewright.drive.protocol import EgoPolicy
-from scenewright.errors import PolicyError
+from scenewright.errors import PolicyError, told_by
 
 GROUP = "scenewright.policies"
 OptionValue = float | int | bool | str | None
@@ -104,10 +105,10 @@ def _named_class(name: str) -> Callable[..., object]:
         if point.name == name:
             try:
                 return cast("Callable[..., object]", point.load())
-            except Exception as error:  # whatever a plug-in does at import is its fault, and the user should read it
+            except (Exception, SystemExit) as error:  # whatever a plug-in does at import is its fault
                 raise PolicyError(
                     f"the policy {name!r} cannot be imported",
-                    found=_last_line(error),
+                    found=told_by(error),
                     fix=f"repair or reinstall the package that offers {point.value}",
                 ) from error
     known = sorted(policy_descriptions())
@@ -121,24 +122,24 @@ def _named_class(name: str) -> Callable[..., object]:
 
 def _users_class(module_name: str, class_name: str) -> Callable[..., object]:
     # The folder stays on the path: a policy may import its own parts later, when it runs.
-    folder, stem = Path.cwd(), module_name
-    if module_name.endswith(".py"):
-        folder, stem = Path(module_name).resolve().parent, Path(module_name).stem
+    file = Path(module_name).resolve() if module_name.endswith(".py") else None
+    folder, stem = (file.parent, file.stem) if file is not None else (Path.cwd(), module_name)
     if str(folder) not in sys.path:
         sys.path.insert(0, str(folder))
     try:
-        module = import_module(stem)
+        module = import_module(stem) if file is None else _module_in(file)
     except ModuleNotFoundError as error:
         if error.name is None or not (stem == error.name or stem.startswith(error.name + ".")):
-            raise _import_fault(stem, error) from error
+            raise _import_fault(module_name, error) from error
+        here = f"neither {stem.replace('.', '/')}.py in the current folder nor an installed module"
         raise PolicyError(
             f"there is no module {stem!r}",
-            found=f"neither {stem.replace('.', '/')}.py in the current folder nor an installed module",
+            found=here if file is None else f"no file {module_name}",
             expected="module:Class, with the module in the current folder or installed",
             fix=_did_you_mean(stem, [path.stem for path in folder.glob("*.py")]) or "check the name and the folder",
         ) from error
-    except Exception as error:  # a user's module may do anything at import
-        raise _import_fault(stem, error) from error
+    except (Exception, SystemExit) as error:  # a user's module may do anything at import
+        raise _import_fault(module_name, error) from error
     made = getattr(module, class_name, None)
     if made is None or not callable(made):
         classes = [name for name, value in vars(module).items() if inspect.isclass(value) and hasattr(value, "step")]
@@ -151,11 +152,29 @@ def _users_class(module_name: str, class_name: str) -> Callable[..., object]:
     return cast("Callable[..., object]", made)
 
 
-def _import_fault(module_name: str, error: Exception) -> PolicyError:
+def _module_in(file: Path) -> types.ModuleType:
+    """Return the module that a file is; by its whole path, for others may have its name."""
+    name = str(file)
+    if name in sys.modules:
+        return sys.modules[name]
+    spec = spec_from_file_location(name, file)
+    if spec is None or spec.loader is None or not file.is_file():
+        raise ModuleNotFoundError(name=file.stem)
+    sys.modules[name] = module = module_from_spec(spec)
+    try:
+        spec.loader.exec_module(module)
+    except BaseException:
+        del sys.modules[name]
+        raise
+    return module
+
+
+def _import_fault(module_name: str, error: BaseException) -> PolicyError:
+    alone = module_name if module_name.endswith(".py") else f'-c "import {module_name}"'
     return PolicyError(
         f"the module {module_name!r} cannot be imported",
-        found=_last_line(error),
-        fix=f'make `python -c "import {module_name}"` work first',
+        found=told_by(error),
+        fix=f"make `python {alone}` work first",
     )
 
 
@@ -189,7 +208,7 @@ def _options(name: str, make: Callable[..., object], text: str) -> dict[str, Opt
                 f"option {key!r} of {name!r} has the wrong type",
                 found=repr(value),
                 expected=_type_name(known[key]),
-                fix=f"write {key}={_example(known[key])}, for instance",
+                fix=_how_to_write(key, known[key]),
             ) from error
     return options
 
@@ -216,9 +235,12 @@ def _constructor_options(make: Callable[..., object]) -> dict[str, Any]:
 
 
 def _read_value(text: str, kind: Any) -> OptionValue:
-    choices = get_args(kind) if get_origin(kind) in (Union, types.UnionType) else (kind,)
+    choices = _choices(kind)
     if type(None) in choices and text.lower() == "none":
         return None
+    for named in (each for choice in choices if get_origin(choice) is Literal for each in get_args(choice)):
+        if str(named) == text:
+            return cast("OptionValue", named)
     for choice in (bool, int, float):  # narrow before wide: 1 is an int where both would do
         if choice in choices or Any in choices:
             try:
@@ -245,16 +267,16 @@ def _finite(value: float | int) -> float | int:
 def _build(name: str, make: Callable[..., object], options: dict[str, OptionValue]) -> EgoPolicy:
     try:
         policy = make(**options)
+        missing = [method for method in ("reset", "step") if not callable(getattr(policy, method, None))]
     except PolicyError:
         raise
-    except Exception as error:  # a user's constructor may do anything
+    except (Exception, SystemExit) as error:  # a user's constructor may do anything
         raise PolicyError(
             f"the policy {name!r} cannot be built",
-            found=_last_line(error),
+            found=told_by(error),
             expected="a constructor that takes " + (", ".join(_constructor_options(make)) or "no arguments"),
             fix="check the options, or the policy's constructor",
         ) from error
-    missing = [method for method in ("reset", "step") if not callable(getattr(policy, method, None))]
     if missing:
         raise PolicyError(
             f"{name!r} is not a policy",
@@ -265,21 +287,25 @@ def _build(name: str, make: Callable[..., object], options: dict[str, OptionValu
     return cast("EgoPolicy", policy)
 
 
-def _last_line(error: BaseException) -> str:
-    return f"{type(error).__name__}: {error}".splitlines()[0]
-
-
 def _did_you_mean(word: str, known: list[str]) -> str | None:
     close = get_close_matches(word.lower(), known, n=1) or get_close_matches(word, known, n=1)
     return f"did you mean {close[0]!r}?" if close else None
 
 
+def _choices(kind: Any) -> tuple[Any, ...]:
+    return get_args(kind) if get_origin(kind) in (Union, types.UnionType) else (kind,)
+
+
 def _type_name(kind: Any) -> str:
-    choices = get_args(kind) if get_origin(kind) in (Union, types.UnionType) else (kind,)
     names = {float: "number", int: "whole number", bool: "true or false", str: "text", type(None): "none", Any: "value"}
-    return " or ".join(names.get(choice, getattr(choice, "__name__", str(choice))) for choice in choices)
+    told = (get_args(choice) if get_origin(choice) is Literal else (choice,) for choice in _choices(kind))
+    return " or ".join(names.get(each, getattr(each, "__name__", str(each))) for some in told for each in some)
 
 
-def _example(kind: Any) -> str:
-    choices = get_args(kind) if get_origin(kind) in (Union, types.UnionType) else (kind,)
-    return {float: "1.5", int: "1", bool: "true"}.get(choices[0], "text")
+def _how_to_write(key: str, kind: Any) -> str:
+    first = _choices(kind)[0]
+    named = get_args(first)[0] if get_origin(first) is Literal else None
+    example = named or {float: "1.5", int: "1", bool: "true", str: "text"}.get(first)
+    if example is None:
+        return f"annotate {key!r} as a number, bool, str or Literal to give it here"
+    return f"write {key}={example}, for instance"

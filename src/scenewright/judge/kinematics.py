@@ -41,7 +41,7 @@ def kinematic_findings(case: Case, actor_id: int) -> list[Finding]:
 
 def _agreements(case: Case, actor_id: int) -> list[Finding]:
     states = case.timelines[actor_id].states
-    jump, drift, slip = _speed_jump(states), _position_drift(case, actor_id), _map_drift(states)
+    jump, drift, slip = speed_jump(states), _position_drift(case, actor_id), map_drift(states)
     return [
         Finding("speed_jump", "speed changes only as its acceleration says", 0.0, jump, jump, "speed"),
         Finding("position_drift", "position changes only as its speed says", 0.0, drift, drift, "speed"),
@@ -90,7 +90,7 @@ def _below(name: str, text: str, limit: float, value: float, dimension: Dimensio
     return Finding(name, text, limit, value, max(0.0, limit - value), dimension)
 
 
-def _speed_jump(states: ActorTrace) -> float:
+def speed_jump(states: ActorTrace) -> float:
     """Return by how much the speed changes in a step, or in a second, beyond what accelerations explain (m/s) at most.
 
     A piece may end between two samples: then the mean acceleration lies between the stated ones.
@@ -126,7 +126,8 @@ def _position_drift(case: Case, actor_id: int) -> float:
     return float(np.max(np.abs(way / steps - mean)))
 
 
-def _map_drift(states: ActorTrace) -> float:
+def map_drift(states: ActorTrace) -> float:
+    """Return by how much (m/s) the way on the map differs from the speed at most."""
     steps = np.diff(states.time_s)
     if not len(steps):
         return 0.0

@@ -7,7 +7,7 @@ of the program's manner.
 from __future__ import annotations
 
 from bisect import bisect_right
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from fractions import Fraction
 
 import numpy as np
@@ -73,6 +73,11 @@ class Limits:
     def law(self) -> Law:
         """Return the law of motion that these bounds are, in numbers for a solver."""
         return Law(-pin(self.brake_max_mpss), pin(self.accel_max_mpss), Fraction(0), pin(self.speed_max_mps))
+
+    def no_faster(self, most_mps: float) -> Limits:
+        """Return the same limits for one that never drives faster than so."""
+        speeds = (each.name for each in fields(self) if each.name.endswith("_mps"))
+        return replace(self, **{name: min(getattr(self, name), most_mps) for name in speeds})
 
     def at_pace(self, share: float) -> Limits:
         """Return the same limits for one that comes to its trigger no faster than a share of what it may."""

@@ -6,12 +6,14 @@ file is known to `readers`.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from difflib import get_close_matches
 from functools import lru_cache
 from pathlib import Path
 
-from scenewright.errors import MapError, Place, ScenewrightError
+import numpy as np
+
+from scenewright.errors import MapError, Place, ScenewrightError, told_by
 from scenewright.roads.model import RoadMap
 
 _MAPS = Path(__file__).parent / "maps"
@@ -71,11 +73,25 @@ def _load(source: Path, modified_ns: int) -> RoadMap:
         road_map = reader(source)
     except (ScenewrightError, OSError):
         raise
-    except Exception as error:  # a reader may be anybody's, and a file anything
-        raise _reader_broke(source, f"{type(error).__name__}: {error}".splitlines()[0]) from error
+    except (Exception, SystemExit) as error:  # a reader may be anybody's, and a file anything
+        raise _reader_broke(source, told_by(error)) from error
     if not isinstance(road_map, RoadMap):
         raise _reader_broke(source, f"it returned a {type(road_map).__name__}")
+    for wrong in _wrong_in(road_map):
+        raise _reader_broke(source, wrong)
     return road_map
+
+
+def _wrong_in(road_map: RoadMap) -> Iterator[str]:
+    """Yield what no lane graph can be."""
+    for lane_id, lane in road_map.lanes.items():
+        beside = (each for each in (lane.left_neighbor, lane.right_neighbor) if each is not None)
+        for other in (*lane.successors, *lane.predecessors, *beside):
+            if other not in road_map.lanes:
+                yield f"lane {lane_id} is linked to {other}, which is not there"
+        for line in (lane.centerline_xy, lane.left_edge_xy, lane.right_edge_xy):
+            if line.ndim != 2 or line.shape[1] != 2 or len(line) < 2 or not np.isfinite(line).all():
+                yield f"lane {lane_id} is not drawn by two finite points or more: {line}"
 
 
 def _answers(question: Callable[[], bool]) -> bool:

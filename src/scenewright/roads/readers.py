@@ -12,7 +12,7 @@ from importlib.metadata import EntryPoint
 from pathlib import Path
 from typing import cast
 
-from scenewright.errors import MapError
+from scenewright.errors import MapError, told_by
 from scenewright.plugins import missing_extra, named, points
 from scenewright.roads.model import RoadMap
 
@@ -44,10 +44,10 @@ def reader_for(ending: str) -> MapReader | None:
         raise missing
     try:
         return cast("MapReader", point.load())
-    except Exception as error:  # whatever a plug-in does at import is its fault, and the user should read it
+    except (Exception, SystemExit) as error:  # whatever a plug-in does at import is its fault
         raise MapError(
             f"the reader of {ending} files cannot be imported",
-            found=f"{type(error).__name__}: {error}".splitlines()[0],
+            found=told_by(error),
             expected=f"a function in {point.value}",
             fix="repair or reinstall the package that offers it",
         ) from error

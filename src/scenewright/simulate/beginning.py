@@ -293,7 +293,8 @@ def first_states(world: World) -> Iterator[EgoFirstState]:
     told, found = linear_conditions(world.scene, world.structure), list[EgoFirstState]()
     conditions = tuple(of_ego(told, world.structure))
     lead_s = usual_lead_s(world.scene, world.structure, world.limits, told)
-    for start in ego_starts(world.scene, world.ego, world.limits[EGO], conditions, lead_s):
+    limits = world.limits[EGO].no_faster(world.ego_bounds.speed_max_mps)  # it is not made to break its promise
+    for start in ego_starts(world.scene, world.ego, limits, conditions, lead_s):
         found.append(start)
         if not start.last_resort:
             yield start

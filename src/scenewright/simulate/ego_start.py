@@ -76,14 +76,14 @@ class _Way:
     def __init__(self, scene: Scene, conditions: tuple[LinearCondition, ...], lead_s: float) -> None:
         sketch, landmarks = scene.program.ego.sketch, scene.landmarks_m[EGO]
         first, alone = (EGO, sketch.knots[0]), [c for c in conditions if set(c.weights) == {EGO}]
-        placed, told = [c for c in alone if c.weights[EGO][0]], [c for c in alone if not c.weights[EGO][0]]
+        placed = [c for c in alone if c.weights[EGO][0]]
 
         def order(condition: LinearCondition) -> int:
             own = (sketch.knot_index(name) for who, name in condition.moments if who == EGO)
             return min(own, default=len(sketch.knots))  # what is of a hero's knot comes behind all of the ego's
 
         self.begins = next((c for c in placed if c.moments == {first}), None)
-        self.speed_mps = next((-c.constant / c.weights[EGO][1] for c in told if c.moments == {first}), None)
+        self.speed_mps = told_speed_mps(scene, conditions)
         self.later = sorted((c for c in placed if first not in c.moments), key=order)
         least_s, most_s = knot_between_s(scene, min(self.later[0].moments)) if self.later else (0.0, math.inf)
         self.lead_s, self.is_told = min(max(lead_s, least_s), most_s), most_s - least_s < _ROUNDING_S
@@ -111,6 +111,13 @@ class _Way:
     def is_past_something(self, start: EgoFirstState) -> bool:
         """Whether the ego would begin beyond a place, or nearer in time to one, that it is to come to later."""
         return any(c.value({EGO: (start.s_m, start.speed_mps)}) / c.weights[EGO][0] > 0.0 for c in self.later)
+
+
+def told_speed_mps(scene: Scene, conditions: tuple[LinearCondition, ...]) -> float | None:
+    """Return how fast the ego is at first where a number of the program says it."""
+    first = {(EGO, scene.program.ego.sketch.knots[0])}
+    told = (c for c in conditions if set(c.weights) == {EGO} and not c.weights[EGO][0] and c.moments == first)
+    return next((-c.constant / c.weights[EGO][1] for c in told), None)
 
 
 def drives_alone(ego: EgoVehicle, start: EgoFirstState, step_s: float, until_s: float = _ALONE_S) -> Profile:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
+from functools import partial
 from math import hypot
 from typing import TYPE_CHECKING, Protocol
 
@@ -18,7 +19,7 @@ from scenewright.errors import PolicyError, ScenewrightError, SimulatorError
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
 from scenewright.simulate.ending import Ending
-from scenewright.simulate.port import SIMULATORS, Simulator, Snapshot, Start
+from scenewright.simulate.port import Simulator, Snapshot, Start, shown
 from scenewright.trace.model import ActorTrace, Trace
 
 if TYPE_CHECKING:
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 
 DEFAULT_STEP_S = 0.02
 DEFAULT_REPLAN_S = 0.1
+_EXACT = 1e-6  # so much of a tick is rounding
 _NOTED_M = 0.01  # what a finding with two decimals can say
 _DRIVES_EGO = "The simulator drove the ego by itself; the policy of --ego only told how it would start."
 
@@ -100,31 +102,25 @@ def simulate(
         Called with the simulated time (s) at every re-solve.
     """
     scene, first_plan, log = start.scene, heroes.plan, list[Snapshot]()
-    steps_a_tick = max(1, round(rates.replan_s / rates.step_s)) if rates.replan_s else 0
+    ticks_a_step = rates.step_s / rates.replan_s if rates.replan_s else 0.0
     status, fault, step, astray_m = "finished", None, 0, 0.0
     ending = Ending(scene)
-    with SIMULATORS.blamed(simulator):
-        simulator.reset(start, rates.step_s)
-        now = simulator.observe()
+    now = shown(simulator, partial(simulator.reset, start, rates.step_s), start)
     try:
         while True:
-            if steps_a_tick and step and step % steps_a_tick == 0:
+            if int(step * ticks_a_step + _EXACT) > int((step - 1) * ticks_a_step + _EXACT) and step:
                 heroes.tick(now.time_s)
                 if progress is not None:
                     progress(now.time_s)
             motions = {hero.id: heroes.plan.profiles[hero.id] for hero in scene.program.heroes}
-            with SIMULATORS.blamed(simulator):
-                simulator.apply(motions)
-                now = simulator.observe()
+            now = shown(simulator, partial(simulator.apply, motions), start)
             log.append(now)
             for hero, motion in motions.items():
                 there = now.actors[hero]
                 astray_m = max(astray_m, hypot(there.s_m - motion.state(now.time_s)[0], there.d_m))
             if ending.is_now(heroes.plan.profiles, now):
                 break
-            with SIMULATORS.blamed(simulator):
-                simulator.step()
-                now = simulator.observe()
+            now = shown(simulator, simulator.step, start, now.time_s)
             step += 1
             ego = now.actors[EGO]
             heroes.observe((now.time_s, ego.s_m, ego.speed_mps, ego.accel_mps2))

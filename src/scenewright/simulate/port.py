@@ -7,9 +7,9 @@ without arguments. `scenewright.testing.check_simulator` is the contract as a te
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from math import cos, sin
+from math import cos, inf, isfinite, sin
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from scenewright.errors import SimulatorError
@@ -134,4 +134,17 @@ class Simulator(Protocol):
 
 
 _OURS = {"builtin": "scenewright.simulate.builtin:BuiltIn"}
-SIMULATORS: Kind[Simulator] = Kind(GROUP, _OURS, "simulator", "drives", SimulatorError)
+SIMULATORS: Kind[Simulator] = Kind(GROUP, _OURS, "simulator", "drives", SimulatorError, Capabilities)
+
+
+def shown(simulator: Simulator, after: Callable[[], None], start: Start, since_s: float = -inf) -> Snapshot:
+    """Return where everybody is after something is done; raises `SimulatorError` where nobody can drive on from it."""
+    with SIMULATORS.blamed(simulator):
+        after()
+        now = simulator.observe()
+        for actor in start.first:
+            if not isinstance(state := now.actors.get(actor), ActorState) or not all(map(isfinite, state)):
+                raise ValueError(f"at {now.time_s:.2f} s actor {actor} is {state}")
+        if not since_s < now.time_s < inf:
+            raise ValueError(f"a step from {since_s:.2f} s led to {now.time_s:.2f} s")
+    return now

@@ -18,10 +18,11 @@ from scenewright.plan.rehearsal import Rehearsed
 from scenewright.program.structure import Structure, read_structure
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
-from scenewright.simulate.ego_start import EgoFirstState
+from scenewright.simulate.ego_start import EgoFirstState, told_speed_mps
 from scenewright.simulate.loop import Rates
 from scenewright.simulate.port import SIMULATORS
 from scenewright.simulate.vehicles import EgoVehicle
+from scenewright.solve.arrival import linear_conditions
 from scenewright.solve.feasibility import EgoBounds, Feasibility, Question
 from scenewright.solve.parameters import settle
 from scenewright.solve.proofs.refuters import SOLVERS
@@ -73,7 +74,9 @@ class World:
         self.limits: dict[int, Limits] = {i: limits_on(route, scene.road_map) for i, route in scene.routes.items()}
         self.refuter = SOLVERS.called(solver)
         self.simulator = SIMULATORS.called(simulator)
-        promise = None if self.simulator.capabilities.drives_ego else guarded.envelope
+        told_mps = told_speed_mps(scene, linear_conditions(scene, self.structure))
+        begins = None if told_mps is None else self.ego.start_at(0.0, told_mps)
+        promise = None if self.simulator.capabilities.drives_ego else guarded.promise_from(begins)
         self.ego_bounds = (
             EgoBounds(promise.speed_max_mps, promise.accel_max_mpss, -promise.accel_min_mpss, promise.holds_speed)
             if promise is not None

@@ -54,14 +54,24 @@ def draw_parameters(parameters: Sequence[Parameter], seed: Sequence[int]) -> dic
     for parameter in parameters:
         if "initial" in parameter.name and "ego" in parameter.name:
             values[parameter.name] = max(values[parameter.name], _last_trigger(parameter, parameters, values))
-    return {p.name: round(values[p.name] / float(p.unit.si_factor), 2) for p in parameters}
+    return {p.name: _within(p, round(values[p.name] / float(p.unit.si_factor), 2)) for p in parameters}
 
 
 def _range_of(parameter: Parameter) -> tuple[float, float]:
+    """Return what to draw from (SI): where the program says so, that, for what it leaves open what the name says."""
     for dimension, words, low, high in _RANGES:
         if dimension == parameter.unit.dimension and all(word in parameter.name for word in words):
-            return low, high
+            si = parameter.unit.si_factor
+            low = low if parameter.low is None else float(parameter.low * si)
+            high = high if parameter.high is None else float(parameter.high * si)
+            return (low, max(low, high)) if parameter.high is None else (min(low, high), high)
     raise KeyError(parameter.name)
+
+
+def _within(parameter: Parameter, value: float) -> float:
+    """Return a value of a parameter, in its own unit, brought into its range where the program gives one."""
+    value = value if parameter.low is None else max(value, float(parameter.low))
+    return value if parameter.high is None else min(value, float(parameter.high))
 
 
 def _last_trigger(start: Parameter, parameters: Sequence[Parameter], values: dict[str, float]) -> float:

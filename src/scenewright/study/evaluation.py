@@ -9,9 +9,10 @@ from __future__ import annotations
 import json
 import shlex
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 
+from scenewright.drive.loading import load_policy
 from scenewright.errors import InputError, Place, ScenewrightError
 from scenewright.orchestrate import orchestrate
 from scenewright.request import Request, Result
@@ -46,7 +47,7 @@ class Case:
         words = ["scenewright", "run", self.description.text]
         for name, value in self.parameters.items():
             words += ["-p", f"{name}={value}"]
-        words += ["--ego", self.ego, "--seed", str(self.seed)]
+        words += ["--ego", self.ego, "--seed", str(self.seed), "--translator", OFFLINE]
         words += [] if self.takes == 3 else ["--takes", str(self.takes)]
         return shlex.join(words)
 
@@ -108,7 +109,10 @@ def read_descriptions(path: Path) -> list[Description]:
     else:
         raise InputError("there are no descriptions here", place=Place(str(path)), expected="a .json, .txt or a folder")
     if not found:
-        raise InputError("there are no descriptions here", place=Place(str(path)), expected="at least one .txt file")
+        raise InputError("there are no descriptions here", place=Place(str(path)), expected="at least one")
+    ids = [description.id for description in found]
+    if twice := next((each for each in ids if ids.count(each) > 1), None):
+        raise InputError("two descriptions have one id", place=Place(str(path)), found=twice, fix="give each its own")
     return found
 
 
@@ -122,10 +126,16 @@ def _described_in(file: Path) -> Description:
 def make_cases(
     descriptions: Sequence[Description], egos: Sequence[str], draws: int, seed: int, takes: int = 3
 ) -> list[Case]:
-    """Return every combination; a draw is the same for all egos."""
+    """Return every combination; a draw is the same for all egos. What does not exist is refused."""
+    for ego in egos:
+        load_policy(ego)
     cases = []
     for number, description in enumerate(descriptions):
-        program, _ = read_scenario(description.text, OFFLINE)
+        try:
+            program, _ = read_scenario(description.text, OFFLINE)
+        except ScenewrightError as error:
+            error.place = error.place and replace(error.place, name=description.id)
+            raise
         for draw in range(draws):
             parameters = draw_parameters(program.parameters, (seed, number, draw))
             cases += [Case(description, ego, draw, seed + draw, parameters, takes) for ego in egos]

@@ -60,7 +60,7 @@ class Plan:
         """Make sure that all there is to run exists."""
         from scenewright.drive.loading import load_policy
         from scenewright.study.benchmark import benchmark_rows
-        from scenewright.study.rivals import METHODS
+        from scenewright.study.rivals import check_method
 
         known = {row.id for row in benchmark_rows()}
         for row in self.rows:
@@ -74,10 +74,7 @@ class Plan:
         for ego in self.egos:
             load_policy(ego)
         for method in self.methods:
-            if method.partition(":")[0] not in METHODS:
-                raise InputError(
-                    "there is no such method", found=method, expected=", ".join(METHODS), fix=f"--methods {OURS}"
-                )
+            check_method(method)
 
     def cases(self, folder: Path) -> list[BenchCase]:
         """Return all cases, all of one draw before the next; runs of our method keep their files."""
@@ -145,7 +142,7 @@ class Experiment:
     plan: Plan
     folder: Path
     command: str
-    progress: Progress = field(init=False)
+    progress: Progress = field(init=False, default_factory=lambda: Progress(0, 0, 0, 0))
 
     def run(
         self,

@@ -39,7 +39,8 @@ def put_on_map(story: st.Story, road_map: RoadMap, answers: Mapping[str, str] | 
         if not found:
             there_are = "; ".join(dict.fromkeys(phrases.way(_way(route, road_map)) for route in all_routes(road_map)))
             message = f"no way on {road_map.name} fits what is said of {phrases.name(actor.id)}"
-            raise TranslationError(message, found=phrases.way(actor.way), expected=f"one of: {there_are}")
+            expected = f"one of: {there_are}" if there_are else "a map with at least one way through"
+            raise TranslationError(message, found=phrases.way(actor.way), expected=expected)
         straights = [number for number, way in enumerate(found) if way.turn == "straight"]
         if len(straights) == 1 < len(found) and not _is_open(actor, story):
             found = [found[straights[0]]]

@@ -17,7 +17,9 @@ from forms import FORMS, program
 from posed import UNKNOWNS, X, Y, at_random, eased, named, violation
 from scenewright.algebra.polynomials import Named, Unknown, compare, resting_on, some
 from scenewright.errors import InputError, MissingExtraError, SolverError
+from scenewright.orchestrate import orchestrate
 from scenewright.program.text import parse_program
+from scenewright.request import Request
 from scenewright.roads.grounding import ground
 from scenewright.solve.proofs.refuters import (
     GROUP,
@@ -39,6 +41,14 @@ class Shy:
     capabilities = Capabilities(exact=True)
     def ask(self, unknowns, formulas, timeout_s):
         return Answer("unknown")
+
+class Breaks(Shy):
+    def ask(self, unknowns, formulas, timeout_s):
+        raise MemoryError("no room")
+
+class Mumbles(Shy):
+    def ask(self, unknowns, formulas, timeout_s):
+        return "refuted"
 """
 
 
@@ -73,6 +83,7 @@ def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     )
     (about / "entry_points.txt").write_text(
         f"[{GROUP}]\nshy = shysolver:Shy\ndeep = shysolver_apart:Deep [deep]\nbad = shysolver_apart:Bad\n"
+        "breaks = shysolver:Breaks\nmumbles = shysolver:Mumbles\n"
     )
     monkeypatch.syspath_prepend(tmp_path)
     for name in ("shysolver", "shysolver_apart"):
@@ -106,6 +117,14 @@ def test_solvers_that_fail_are_named(package: Path) -> None:
     with pytest.raises(InputError, match="no such solver") as unknown:
         SOLVERS.called("z4")
     assert "z3" in str(unknown.value.expected)
+
+
+@pytest.mark.parametrize(("name", "words"), [("breaks", "MemoryError: no room"), ("mumbles", "it answered 'refuted'")])
+def test_one_that_fails_when_asked_is_named(package: Path, name: str, words: str) -> None:
+    impossible = (Path(__file__).parents[3] / "examples" / "impossible.txt").read_text(encoding="utf-8")
+    with pytest.raises(SolverError, match=f"the solver {name.title()} failed") as broken:
+        orchestrate(Request(impossible, solver=name), until="check")
+    assert words in str(broken.value.found)
 
 
 def test_capabilities_are_told_in_words() -> None:

@@ -28,7 +28,7 @@ from scenewright.solve.proofs.events import EgoBounds, Events
 from scenewright.solve.proofs.guesses import carried_over, first_guess
 from scenewright.solve.proofs.lowering import Lowering
 from scenewright.solve.proofs.refinement import Refinement
-from scenewright.solve.proofs.refuters import SOLVERS, Refuter, clashing
+from scenewright.solve.proofs.refuters import SOLVERS, Refuter, answer_of, clashing
 from scenewright.solve.proofs.relaxation import relaxation
 from scenewright.solve.proofs.search import Search
 from scenewright.solve.proofs.witness import Broken, Witness, broken, realised
@@ -160,7 +160,7 @@ def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> De
             case, posed = _Case(asked), None
         posed = posed or (case.events.unknowns, case.relaxation())
         refuter = question.refuter
-        if refuter.ask(*posed, min(proof_s, limit_s)).kind == "refuted":
+        if answer_of(refuter, *posed, min(proof_s, limit_s)).kind == "refuted":
             if not refuter.capabilities.exact:
                 return Decision("undecided", left_out=left_out, amiss=hunt.amiss, doubted_by=refuter.name)
             return Decision("infeasible", core=_core(asked, *posed) if explain else (), left_out=left_out)
@@ -235,7 +235,7 @@ def _core(question: Question, unknowns: Sequence[Unknown], formulas: Sequence[Na
     for kind, words in _RANGES.items():
         wide = (replace(each, low=-_WIDER * each.high, high=_WIDER * each.high) for each in unknowns)
         wider = [new if old.kind == kind else old for old, new in zip(unknowns, wide, strict=True)]
-        if refuter.ask(wider, rests_on, 0.2).kind == "met":
+        if answer_of(refuter, wider, rests_on, 0.2).kind == "met":
             ranges.append(words.format(tops=_tops(question, kept)))
     return (*kept, *laws, *ranges)
 

@@ -22,7 +22,6 @@ _OURS = {
     "cvc5": "scenewright.solve.proofs.cvc5_engine:Cvc5 [cvc5]",
     "scip": "scenewright.solve.proofs.scip_engine:Scip [scip]",
 }
-SOLVERS: Kind[Refuter] = Kind(GROUP, _OURS, "solver", "refutes", SolverError, {"cvc5": "cvc5", "scip": "pyscipopt"})
 _CORE_S, _SHRINK_S = 1.0, 0.15  # for looking for what clashes in all, and for each question whether fewer do
 
 Found = Literal["refuted", "met", "timeout", "unknown"]
@@ -78,6 +77,19 @@ class Refuter(Protocol):
         ...
 
 
+SOLVERS: Kind[Refuter] = Kind(
+    GROUP, _OURS, "solver", "refutes", SolverError, Capabilities, {"cvc5": "cvc5", "scip": "pyscipopt"}
+)
+
+
+def answer_of(refuter: Refuter, unknowns: Sequence[Unknown], formulas: Sequence[Named], timeout_s: float) -> Answer:
+    """Return what a solver answers; raises `SolverError` where it fails."""
+    with SOLVERS.blamed(refuter):
+        if isinstance(answer := refuter.ask(unknowns, formulas, timeout_s), Answer):
+            return answer
+        raise TypeError(f"it answered {answer!r}")
+
+
 def clashing(
     refuter: Refuter, names: Sequence[str], posed: Callable[[list[str]], tuple[Sequence[Unknown], Sequence[Named]]]
 ) -> list[str]:
@@ -88,7 +100,7 @@ def clashing(
         nonlocal left_s
         if left_s <= 0.0:
             return False
-        answer = refuter.ask(*posed(fewer), _SHRINK_S)
+        answer = answer_of(refuter, *posed(fewer), _SHRINK_S)
         left_s -= answer.took_s
         return answer.kind == "refuted"
 

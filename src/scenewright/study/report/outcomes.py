@@ -183,7 +183,7 @@ def failures_table(own: Sequence[CaseRecord], folder: Path) -> Table:
         "evidence": "measured",
         "command": "run it again",
     }
-    none = "Every case of our method succeeded or is proven infeasible."
+    none = "Every case of our method succeeded or is proven infeasible." if own else "No case is of our method."
     return Table("failures", "Every remaining failure, ours", columns, rows, none)
 
 

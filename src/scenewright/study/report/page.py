@@ -69,9 +69,10 @@ def render_page(settings: Mapping[str, Any], cases: int, sections: Sequence[Sect
 
 def _subtitle(settings: Mapping[str, Any], cases: int) -> str:
     """Return what was run, in numbers."""
-    parts = [f"{cases} cases"]
-    parts += [f"{len(settings[name])} {name}" for name in ("rows", "egos", "methods") if name in settings]
-    parts += [f"{settings[name]} {name}" for name in ("draws", "takes") if name in settings]
+    counts = {"cases": cases}
+    counts |= {name: len(settings[name]) for name in ("rows", "egos", "methods") if name in settings}
+    counts |= {name: settings[name] for name in ("draws", "takes") if name in settings}
+    parts = [f"{count} {name if count != 1 else name.removesuffix('s')}" for name, count in counts.items()]
     return " · ".join([*parts, *([] if "finished" in settings else ["not finished"])])
 
 

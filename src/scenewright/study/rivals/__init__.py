@@ -31,6 +31,13 @@ def request_of(method: str, request: Request) -> Request:
     return replace(request, **_ASKS.get(method, {}))
 
 
+def check_method(method: str) -> None:
+    """Raise `InputError` or `PolicyError` where there is no such method, or where it takes no such option."""
+    from scenewright.study.rivals.methods import check
+
+    check(method)
+
+
 def run_method(method: str, request: Request) -> Result:
     """Carry out `request` by one of `METHODS`.
 

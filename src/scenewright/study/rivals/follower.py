@@ -9,8 +9,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from math import isfinite
 
 from scenewright.drive.protocol import EgoMotion, VehicleState
+from scenewright.errors import PolicyError
 from scenewright.motion.limits import Limits
 from scenewright.motion.profile import Profile, Segment
 from scenewright.plan.planner import Planner, Replan
@@ -159,6 +161,9 @@ class FollowingHeroes:
         view = View(time_s, own, (self._ego_history[-1], *(_unrouted(other) for other in others)))
         action = vehicle.driver.step(view, vehicle.waypoint, self._step_s)
         accel = (action.speed_mps - own.speed_mps) / self._step_s if isinstance(action, EgoMotion) else float(action)
+        if not isfinite(accel):
+            fix = "return a number from step() in every case"
+            raise PolicyError(f"the driver model returned no motion at {time_s:.2f} s", found=str(action), fix=fix)
         top = top_speed_mps(limits, vehicle.turn, own.s_m + own.speed_mps * self._step_s)
         accel = min(accel, limits.accel_max_mpss, (top - own.speed_mps) / self._step_s)
         accel = max(accel, -limits.brake_max_mpss, -own.speed_mps / self._step_s)

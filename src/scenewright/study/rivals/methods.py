@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
-from contextlib import closing
 from dataclasses import dataclass, replace
 from itertools import islice
 
@@ -23,7 +22,7 @@ from scenewright.request import Request, Result, Stages
 from scenewright.simulate.beginning import first_plan
 from scenewright.simulate.ego_start import EgoFirstState
 from scenewright.simulate.loop import HeroDriver, Rates, simulate
-from scenewright.simulate.port import Start
+from scenewright.simulate.port import SIMULATORS, Start
 from scenewright.simulate.world import World
 from scenewright.solve.holding import not_held
 from scenewright.solve.plan import Plan
@@ -71,12 +70,24 @@ class Staging:
 
 def run(method: str, request: Request) -> Result:
     """Carry out `request` by `method`; see `scenewright.study.rivals.run_method`."""
+    check(method)
     name, _, option = method.partition(":")
-    if method in ("scenewright", "open-loop", "smt"):
-        return orchestrate(request_of(method, request))
     if name not in _RIVALS:
-        raise InputError("there is no such method", found=method, expected=", ".join(METHODS))
+        return orchestrate(request_of(method, request))
     return _staged(request, method, option, _RIVALS[name])
+
+
+def check(method: str) -> None:
+    """Raise an error where there is no such method, or where it takes no such option."""
+    name, colon, option = method.partition(":")
+    if name not in METHODS:
+        raise InputError(
+            "there is no such method", found=method, expected=", ".join(METHODS), fix="--methods scenewright"
+        )
+    if colon and name not in _OPTIONS:
+        raise InputError(f"the method {name!r} takes no option", found=method, expected=name, fix="leave it out")
+    if colon:
+        _OPTIONS[name](option)
 
 
 def _staged(
@@ -101,7 +112,7 @@ def _staged(
     if result.not_held:  # who starts from it would miss as much, whatever the method
         result.status = "gave up"
         return result
-    with closing(world.simulator):
+    with SIMULATORS.closing(world.simulator):
         result = drive(Staging(request, world, stages, planner, start, plan, option), result)
     if result.run is not None:
         result.run.findings.append(f"The hero was driven by the rival method {method}, not by Scenewright.")
@@ -180,3 +191,4 @@ _RIVALS: dict[str, Callable[[Staging, Result], Result]] = {
     "rejection": _rejection,
     "follower": _follower,
 }
+_OPTIONS: dict[str, Callable[[str], object]] = {"rejection": _sample_count, "follower": _driver}
