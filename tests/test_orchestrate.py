@@ -22,6 +22,7 @@ from scenewright.trace.files import read_trace
 from scenewright.translate.model.exchange import TranslatorSettings
 from scenewright.translate.sources import read_scenario
 from scenewright.translate.understand import read_answers
+from stories import program
 
 SENTENCE = (
     "The ego drives westbound and is 90 m before the intersection. An oncoming hero turns left into the driveway. "
@@ -326,3 +327,22 @@ def test_routes_that_share_a_road_and_cross_in_the_junction_meet_there(shared_di
     assert result.status == "success"
     assert result.scene.landmark_m(0, "conflict_point") == pytest.approx(118.25, abs=0.01)
     assert result.scene.landmark_m(1, "conflict_point") == pytest.approx(392.74, abs=0.01)
+
+
+def test_other_numbers_are_tried_as_a_user_would_take_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    """With what was left open left open: with other values than it will then have, one number does as well as not."""
+    parameters = "parameters:\n- own_m in [6, 30]\n- ego_mps = 20 in [1, 30]\n\n"
+    asked = "A0(t1) == A1(t1)\nA0x(t1) == conflict_point - 30\nA1x(t1) == conflict_point - own_m\nA1v(t2) == 0\n"
+    text = parameters + program("E, N", "t0, go, t1, dec, t2", asked + "A0v(t1) >= ego_mps\n")
+    tried = list[Request]()
+
+    def noted(request: Request, *others: object, **more: object) -> Result:
+        tried.append(request)
+        return orchestrate(request, *others, **more)  # type: ignore[arg-type]
+
+    monkeypatch.setattr("scenewright.orchestrate.orchestrate", noted)
+    verdict = orchestrate(Request(text, ego="dawdler", takes=1, explain="ways out")).verdict
+    assert verdict is not None
+    assert verdict.cause is not None
+    assert verdict.cause.tried
+    assert max(len(each.parameters) for each in tried) == 1

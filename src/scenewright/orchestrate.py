@@ -214,17 +214,19 @@ def _explain(request: Request, result: Result, world: World, stages: Stages) -> 
     if request.explain == "ways out":
         with stages("ways out"):
             found, tried = ways_out(
-                world.scene, result.verdict, _tolerance(request), partial(_happens, request, world.scene), stages.say
+                world.scene, result.verdict, _tolerance(request), partial(_happens, request), stages.say
             )
         result.verdict = replace(result.verdict, cause=replace(cause, would_do=found, tried=tried))
 
 
 def _happens(
-    request: Request, scene: Scene, program: Program, parameters: Mapping[str, float], progress: Callable[[float], None]
+    request: Request, program: Program, parameters: Mapping[str, float], progress: Callable[[float], None]
 ) -> bool:
-    """Whether another program, or parameters that are otherwise than in `scene`, are a success in their first take."""
-    known = {each.name: scene.parameters[each.name] / each.unit.si_factor for each in scene.program.parameters}
-    values = {name: float(value) for name, value in known.items()} | dict(parameters)
+    """Whether another program, or one with other parameters, is a success in its first take.
+
+    What was left open stays open: whoever takes the number is not to be told others, too.
+    """
+    values = {**request.parameters, **parameters}
     other = replace(request, source=print_program(program), parameters=values, out=None, takes=1, explain="nothing")
     try:
         tried = orchestrate(other, progress=progress)

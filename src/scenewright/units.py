@@ -147,6 +147,15 @@ def format_fraction(value: Fraction) -> str:
     return f"{'-' if value < 0 else ''}{text[:-digits]}.{text[-digits:]}"
 
 
+def in_tenths(value: float) -> str:
+    """Return a size to a tenth, and to its first digit where it is less: a hair's breadth is not to read as a touch.
+
+    >>> in_tenths(2.345), in_tenths(0.0437), in_tenths(0.0)
+    ('2.3', '0.04', '0.0')
+    """
+    return f"{value:.1g}" if 0.0 < abs(value) < 0.1 else f"{value:.1f}"
+
+
 _PINNED_DECIMALS = 4
 
 

@@ -93,6 +93,16 @@ def test_a_trigger_that_never_came_is_not_told_as_one_that_did(
     assert told in console.export_text()
 
 
+def test_that_the_ego_never_came_to_one_trigger_does_not_hide_that_another_came() -> None:
+    calm = Aftermath(None, 3.0, None, None, 0.0, 0.0, None, 20.0)
+    facts = {"trigger_time_s": {"a": 4.0, "b": 5.0}, "trigger_came": {"a": True, "b": False}}
+    console = Console(record=True, width=200, file=io.StringIO())
+    report_verdict(console, Verdict((), calm, {**facts, "ego_never_met_condition": True}), "tight")
+    told = console.export_text()
+    assert "The trigger came at 4.00 s (a). The trigger of b never came; it was nearest at 5.00 s." in told
+    assert "The ego never came within the tight tolerance of its side of one of them." in told
+
+
 def test_of_a_program_without_a_trigger_none_is_told() -> None:
     verdict = Verdict((), Aftermath(None, 3.0, None, None, 0.0, 0.0, None, 20.0), {"trigger_time_s": {}})
     console = Console(record=True, width=100, file=io.StringIO())

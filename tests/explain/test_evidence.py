@@ -50,6 +50,22 @@ def test_misprediction_is_what_the_trace_shows() -> None:
         assert abs(ego.position(time_s) - good.foreseen.state(time_s)[0]) <= 0.5
 
 
+def test_when_a_hero_acted_is_told_as_such() -> None:
+    """It is not when its trigger came: that is for the judge to say."""
+    world, run, verdict = driven("yields, distance", "staller", mode="open")
+    good = last_good(run, verdict.facts["trigger_time_s"]["hero"])
+    assert good is not None
+    assert good.foreseen is not None
+    hero, planned_s, end_s = world.scene.program.actor(HERO), good.foreseen.knot_times_s["t1"], run.trace.duration_s
+    told = {}
+    for until_s in (planned_s + 1.0, planned_s - 1.0, end_s):
+        found = foreseen_otherwise(world, run, good, until_s, hero, at_trigger=True)
+        told[until_s] = found.text if found is not None else ""
+    assert ", and the hero acted 1.0 s later;" in told[planned_s + 1.0]
+    assert ", and the hero acted 1.0 s sooner;" in told[planned_s - 1.0]
+    assert f", and the hero had yet to act {end_s - planned_s:.1f} s later, when the run ended;" in told[end_s]
+
+
 def test_a_trigger_without_the_ego_is_not_held_against_when_it_comes_to_one(monkeypatch: pytest.MonkeyPatch) -> None:
     world, run, verdict = driven("yields, distance", "staller", mode="open")
     trigger_s = verdict.facts["trigger_time_s"]["hero"]
@@ -68,7 +84,7 @@ def test_no_misprediction_of_an_ego_that_holds_its_speed() -> None:
     good = last_good(run, trigger_s)
     assert good is not None
     assert foreseen_otherwise(world, run, good, trigger_s, world.scene.program.actor(HERO), at_trigger=True) is None
-    assert ego_never_there(world, run, verdict) is None
+    assert ego_never_there(world, verdict) is None
     assert limit_reached(world, run, world.scene.program.actor(HERO), 0.0, trigger_s) is None
 
 
@@ -102,8 +118,8 @@ def test_a_limit_at_which_a_hero_was_for_a_moment_of_another_piece_does_not_coun
 
 def test_ego_that_is_never_at_all_of_its_side_at_once() -> None:
     text = STORIES["yields, distance"] + "A0v(t1) == 14\n"
-    world, run, verdict = driven(text, "dawdler")
-    found = ego_never_there(world, run, verdict)
+    world, _, verdict = driven(text, "dawdler")
+    found = ego_never_there(world, verdict)
     assert found is not None
     assert found.evidence["proof"]
     assert "never came to its side of the trigger" in found.text

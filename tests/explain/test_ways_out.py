@@ -88,11 +88,25 @@ def test_what_never_came_is_no_number_to_try() -> None:
     world: World = set_up(Request(STORIES["goes first, distance"]), Stages(None))[0]
     verdict = verdict_to_mend()
     never = tuple(replace(each, required=40.0, measured=math.inf, miss=None) for each in verdict.conditions)
-    endless = replace(verdict, conditions=never, facts={**verdict.facts, "ego_never_met_condition": False})
+    endless = replace(verdict, conditions=never)
     said: list[str] = []
     ways_out(world.scene, endless, TIGHT, lambda *_: False, said.append)
     assert said
     assert not any("inf" in each for each in said)
+
+
+@pytest.mark.parametrize("came", [True, False])
+def test_what_was_measured_at_a_trigger_is_tried_where_it_came(came: bool) -> None:
+    """To within the loose tolerance; the ego may never have been at all of its side."""
+    text = STORIES["goes first, distance"] + "probe: A0v(t1) == 6\n"
+    world: World = set_up(Request(text), Stages(None))[0]
+    whole = verdict_to_mend()
+    probe = Condition("probe", "trigger", "", 6.0, 6.6, 0.6, "m/s", Leaf(0.6, "speed"))
+    facts = {**whole.facts, "trigger_came": {"hero": came}, "ego_never_met_condition": True}
+    verdict = replace(whole, cause=Cause("ego", "", {}), conditions=(*whole.conditions, probe), facts=facts)
+    said: list[str] = []
+    ways_out(world.scene, verdict, TIGHT, lambda *_: False, said.append)
+    assert any("6.6 m/s" in each for each in said) is came
 
 
 def test_what_was_off_by_tolerances_is_tried_in_the_unit_of_the_number() -> None:

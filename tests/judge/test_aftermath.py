@@ -135,6 +135,13 @@ def test_a_hair_s_breadth_does_not_read_as_a_touch() -> None:
     assert json.dumps(came.ego_hardest_braking_mps2) == "0.0"
 
 
+def test_nor_do_hundredths_of_a_second_read_as_one() -> None:
+    came = replace(came_of(CROSSES), collision=None, closest_m=0.02, min_ttc_s=0.031, post_encroachment_s=0.018)
+    assert came.in_words().startswith(
+        "no collision; closest 0.02 m, time to collision at least 0.03 s, passed 0.02 s apart, "
+    )
+
+
 def test_braking_after_a_collision_does_not_count() -> None:
     """Bodies drive through each other there: what a policy does then answers nothing that can be."""
     late = BRAKES.with_ego(pieces=[(9.9, 0.0), (1.0, -6.0)])

@@ -89,6 +89,7 @@ def told(play: Play, formula: str) -> Condition:
         ("A1v(2.5) / A0v(2.5) <= 1.4", 1.4, 1.5, 0.1, ""),
         ("A1v(go) == 11", 11.0, 12.0, 1.0, "m/s"),  # all through a piece: its worst instant
         ("A1(t2) - A1(t1) == 5", 5.0, 14.0 / 3.0, -1.0 / 3.0, "s"),
+        ("A1x(t2) == conflict_point + 3", 3.0, -12.0, -15.0, "m"),
     ],
 )
 def test_what_was_required_and_measured(
@@ -124,11 +125,36 @@ def test_an_order_is_told_with_its_margin() -> None:
     assert condition.text.endswith("(margin; at least 0)")
 
 
-def test_what_is_no_comparison_is_told_in_tolerances() -> None:
+def test_what_is_no_comparison_is_off_in_its_unit_where_that_is_one() -> None:
     condition = told(YIELDS, "A1v(t1) >= 12.5 or A1v(t1) >= 13")
-    assert (condition.required, condition.measured) == (None, None)
-    assert condition.error == pytest.approx(0.5 / 0.25)
-    assert condition.text.endswith("(error in tight tolerances)")
+    assert (condition.required, condition.measured, condition.unit) == (None, None, "m/s")
+    assert (condition.error, condition.off_by) == (pytest.approx(0.5), "0.50 m/s")
+    several = told(YIELDS, "A1v(t1) >= 12.5 or A1x(t1) <= 0")
+    assert (several.error, several.off_by) == (pytest.approx(0.5 / 0.25), "2.00 tight tolerances")
+    assert several.text.endswith("(error in tight tolerances)")
+
+
+@pytest.mark.parametrize(
+    ("formula", "required", "measured", "error"),
+    [
+        ("always[A1(t1), A1(t2)] (A1v <= 10)", 10.0, 12.0, 2.0),
+        ("always[A1(t1), A1(t2)] (A1v >= 4)", 4.0, 0.0, 4.0),
+        ("never[A1(t1), A1(t2)] (A1v > 13)", 13.0, 12.0, 0.0),
+        ("eventually[A1(t1), A1(t2)] (A1v >= 14)", 14.0, 12.0, 2.0),
+        ("eventually[A1(t1), A1(t2)] (A1v <= 3)", 3.0, 0.0, 0.0),
+        ("not (eventually[A1(t1), A1(t2)] (A1v >= 11))", None, None, 1.0),
+    ],
+)
+def test_what_lasts_is_told_with_the_value_that_decides(
+    formula: str, required: float | None, measured: float | None, error: float
+) -> None:
+    condition = told(YIELDS, formula)
+    assert condition.unit == "m/s"
+    assert condition.error == pytest.approx(error, abs=2e-3)
+    if required is None or measured is None:
+        assert (condition.required, condition.measured) == (None, None)
+    else:
+        assert (condition.required, condition.measured) == pytest.approx((required, measured), abs=2e-3)
 
 
 def test_only_what_speaks_of_a_moved_knot_is_judged_again() -> None:

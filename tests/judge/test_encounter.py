@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from plays import BRAKES, YIELDS, YIELDS_AT_S, Play
@@ -64,3 +66,16 @@ def test_a_trigger_that_is_missed_by_far_never_came_though_some_instant_is_neare
     late = judge(YIELDS.with_hero(s_m=YIELDS.hero.s_m - 24.0).case())
     assert np.isfinite(late.facts["trigger_time_s"]["hero"])
     assert late.facts["trigger_came"] == {"hero": False}
+
+
+def test_who_meets_each_part_of_its_side_and_never_all_at_once_never_met_it() -> None:
+    """The ego is slow enough only after it was where the trigger waits for it."""
+    slows = YIELDS.with_ego(pieces=[(6.0, 0.0), (2.0, -2.0)])
+    facts = judge(replace(slows, text=slows.text + "slow: A0v(t1) <= 6\n").case()).facts
+    assert facts["ego_never_met_condition"]
+    *parts, whole = [each for each in facts["closest"] if each["who"] == "ego"]
+    assert [each["met"] for each in parts] == [True, True]
+    assert whole["side"] == " and ".join(each["side"] for each in parts)
+    assert (whole["met"], whole["unit"]) == (False, "tight tolerances")
+    assert 1.0 < whole["error"] <= 2.0 / 0.25
+    assert not judge(replace(slows, text=slows.text + "slow: A0v(t1) <= 8\n").case()).facts["ego_never_met_condition"]

@@ -116,7 +116,7 @@ def test_a_run_goes_on_until_the_ego_is_where_it_is_asked_to_be(asked: str, stat
     if status == "failure":
         assert result.verdict is not None
         assert result.verdict.cause is not None
-        assert "tight tolerances" in result.verdict.cause.text
+        assert result.verdict.cause.text.endswith(" m/s.")
 
 
 class CrawlsAtLast:
@@ -128,3 +128,19 @@ class CrawlsAtLast:
     def step(self, observation: Observation, dt_s: float) -> float:
         """Return an acceleration (m/s^2)."""
         return -3.0 if (observation.ego.s_m or 0.0) > 350.0 and observation.ego.speed_mps > 4.0 else 0.0
+
+
+def test_a_run_does_not_end_a_hand_s_breadth_before_the_ego_is_at_its_place() -> None:
+    """An ego that drives on is seen to be there; what is asked of it then was missed by centimetres."""
+    text = "A0x(t0) == conflict_point - 90\nA0(t1) == A1(t1)\nA0x(t1) == conflict_point - 60\nA1v(t2) == 0\n"
+    text += "A1x(t1) == conflict_point - 30\nA1x(t2) == conflict_point - 16\n"
+    ego = ends(program("E, N", "t0, go, t1, dec, t2", text + "A0x(t2) == turn_end + 250\n"), "constant")
+    assert ego.run is not None
+    states, end_m = ego.run.trace.actors["ego"], ego.scene.landmarks_m[0]["turn_end"]
+    at_m = float(states.s_m[states.s_m < end_m + 249.0][-1]) + 0.05 - end_m
+    result = ends(
+        program("E, N", "t0, go, t1, dec, t2", text + f"A0x(t2) == turn_end + {at_m:.4f}\nA0v(t2) >= 5\n"), "constant"
+    )
+    assert result.run is not None
+    assert result.run.trace.actors["ego"].s_m[-1] >= end_m + at_m
+    assert result.status == "success"

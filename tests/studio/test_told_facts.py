@@ -77,3 +77,18 @@ def test_nothing_known_is_nothing_told() -> None:
     assert told_facts({"pairs": {}, "kinematics": {"ego": {}}, "trigger_time_s": {"hero": float("inf")}}) == [
         ("The trigger of hero never came.", None)
     ]
+
+
+def test_no_time_to_collision_is_one_beyond_what_is_looked_at() -> None:
+    pair = {"collision_time_s": None, "min_distance_m": 0.043, "min_distance_time_s": 3.0, "min_ttc_s": None}
+    assert [sentence for sentence, _ in told_facts({"pairs": {"ego, hero": pair}})] == [
+        "Ego and hero came within 0.04 m of each other, body to body, and never touched.",
+        "They were never within 8 s of a collision, as their motion stood.",
+    ]
+
+
+def test_two_were_where_one_was() -> None:
+    side = {"side": "the van is 5 m behind the hero", "met": True, "error": 0.1, "unit": "m", "time_s": 3.0}
+    assert [sentence for sentence, _ in told_facts({"closest": [{"actors": ["hero", "van"], **side}]})] == [
+        "Hero and van, together, were there: the van is 5 m behind the hero."
+    ]

@@ -319,19 +319,19 @@ def report_verdict(console: Console, verdict: Verdict, tolerance: str, status: s
     console.print(Text.assemble(tables.mark(not missed and status == "finished"), " ", (headline, "bold")))
     console.print(tables.aftermath(verdict), soft_wrap=True)
     if status == "finished" and verdict.facts.get("trigger_time_s"):  # a program need not have one
-        console.print(_trigger(verdict))
+        console.print(_trigger(verdict), soft_wrap=True)
     for line in tables.cause(verdict):
         console.print(line, soft_wrap=True)
 
 
 def _trigger(verdict: Verdict) -> str:
     facts = verdict.facts
-    if facts.get("ego_never_met_condition"):
-        return "The ego never came within the tight tolerance of its side of the trigger."
     came, told = facts.get("trigger_came") or {}, (facts.get("trigger_time_s") or {}).items()
     times = {hero: time_s for hero, time_s in told if time_s is not None and math.isfinite(time_s)}
     met = {hero: time_s for hero, time_s in times.items() if came.get(hero, True)}
-    several = len(times) > 1
+    several, ego_never = len(times) > 1, facts.get("ego_never_met_condition")
+    if ego_never and not several:
+        return "The ego never came within the tight tolerance of its side of the trigger."
     lines = [
         f"The trigger{f' of {hero}' if several else ''} never came; it was nearest at {time_s:.2f} s."
         for hero, time_s in times.items()
@@ -342,4 +342,6 @@ def _trigger(verdict: Verdict) -> str:
         lines.insert(0, f"The trigger{'s' if len(met) > 1 else ''} came at {moments}.")
     elif met:
         lines = [f"The trigger came at {time_s:.2f} s." for time_s in met.values()]
+    if ego_never:
+        lines.append("The ego never came within the tight tolerance of its side of one of them.")
     return " ".join(lines) or "No trigger came."

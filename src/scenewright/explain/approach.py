@@ -15,6 +15,7 @@ import numpy as np
 from scenewright.motion.limits import Signs
 from scenewright.program.structure import standstills
 from scenewright.program.types import PieceKind
+from scenewright.translate.phrases import called
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -43,6 +44,8 @@ class Approach:
         Whether one stood for half a second where the program has it stand nowhere before its trigger.
     jerks_mpsss, accels_mpss
         Their sizes, every 0.1 s.
+    unnatural
+        What people would not do, in words that say who did it.
     pace
         At the trigger, of the speed that the road allows and what the hero then did leaves (braking at 3 m/s^2 to its
         state at the next knot); the least of all heroes, None without a trigger.
@@ -53,13 +56,7 @@ class Approach:
     jerks_mpsss: list[float] = field(default_factory=list)
     accels_mpss: list[float] = field(default_factory=list)
     pace: float | None = None
-
-    @property
-    def unnatural(self) -> list[str]:
-        """What people would not do, in words."""
-        harshly = "braked and sped up, or the other way round, harshly within 1.5 s (by more than 1 m/s^2 each)"
-        told = {harshly: self.reverses, "stood for half a second or more, though no text has it stand": self.stands}
-        return [f"Before its trigger a hero {what}." for what, is_so in told.items() if is_so]
+    unnatural: list[str] = field(default_factory=list)
 
 
 def approach_of(scene: Scene, trace: Trace, facts: Mapping[str, Any]) -> Approach:
@@ -81,6 +78,7 @@ def approach_of(scene: Scene, trace: Trace, facts: Mapping[str, Any]) -> Approac
         [jerk for each in found for jerk in each.jerks_mpsss],
         [accel for each in found for accel in each.accels_mpss],
         min(paces, default=None),
+        [told for each in found for told in each.unnatural],
     )
 
 
@@ -95,12 +93,17 @@ def _of_hero(
     curve_mps = (_COMFORTABLE_MPSS / max(abs(route.path.curvature(float(s_m[0]))), 1e-6)) ** 0.5
     limit_mps = min(Signs.of(route, scene.road_map).at_mps(float(s_m[0])), curve_mps)
     allowed_mps = min(limit_mps, float(np.sqrt(speed_mps[1] ** 2 + 2 * _BRAKES_MPSS * max(0.0, s_m[1] - s_m[0]))))
+    reverses = _reverses(accels)
+    stands = not may_stand and _longest(speeds < _STANDS_MPS) * _EVERY_S >= _STANDS_S
+    harshly = "braked and sped up, or the other way round, harshly within 1.5 s (by more than 1 m/s^2 each)"
+    told = {harshly: reverses, "stood for half a second or more, though no text has it stand": stands}
     return Approach(
-        _reverses(accels),
-        not may_stand and _longest(speeds < _STANDS_MPS) * _EVERY_S >= _STANDS_S,
+        reverses,
+        stands,
         [round(float(jerk), 3) for jerk in np.abs(np.diff(accels)) / _EVERY_S],
         [round(float(accel), 3) for accel in np.abs(accels)],
         float(speed_mps[0]) / allowed_mps if allowed_mps > 0.0 else None,
+        [f"Before its trigger {called(hero.name)} {what}." for what, is_so in told.items() if is_so],
     )
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from dataclasses import asdict
 
-from scenewright.explain.cut_short import cut_short, never_came
+from scenewright.explain.cut_short import cut_short, ego_stood, never_came
 from scenewright.explain.evidence import (
     Finding,
     came_too_late,
@@ -54,8 +54,20 @@ def cause_of(world: World, run: Run, verdict: Verdict, tolerance: Tolerance, pro
     missed = [condition for condition in verdict.conditions if not condition.holds_at(tolerance)]
     asked = {constraint.id: constraint for constraint in world.scene.program.constraints}
     failed = [asked[condition.id] for condition in missed if condition.id in asked]
-    in_way = hero_in_way(world, run)
-    ego = ego_never_there(world, run, verdict) or _denied(world.scene.program, missed, failed, proof)
+    in_way, never_there = hero_in_way(world, run), ego_never_there(world, verdict)
+    stood = ego_stood(world, run, verdict, missed, never_there)
+    whole = stood if stood is not None and (never_there or len(stood.never_came) == len(missed)) else None
+    # It may have slowed down for the same hero before: what it stands before is where it is to be.
+    if (
+        whole is not None
+        and whole.kind == "plan"
+        and (in_way is None or in_way.due_s < whole.found.evidence["since_s"])
+    ):
+        return _cause("plan", whole.found)
+    # What it did not come to for one who stands in its way is not in its hands.
+    kept_from = stood.never_came if stood is not None and stood.kind == "plan" else ()
+    in_hand = [each for each in missed if each not in kept_from]
+    ego = never_there or (whole.found if whole is not None else _denied(world.scene.program, in_hand, failed, proof))
     if in_way is not None and (ego or any(condition.id == "no_collision" for condition in missed)):
         return _cause("way", Finding(_capital(f"{in_way}; what it did then is no finding about it"), asdict(in_way)))
     if ego is not None:
@@ -77,7 +89,8 @@ def cause_of(world: World, run: Run, verdict: Verdict, tolerance: Tolerance, pro
     acted_s = knots_s.get(world.structure.trigger_knot(hero.id) or "", run.trace.duration_s)
     # Where the ego has no part in a trigger that lies beyond the end, it was in nobody's hands.
     waits = acted_s > run.trace.duration_s and EGO not in {who for who, _ in world.structure.triggers.get(hero.id, ())}
-    if ended is not None and (waits or never_came(world, verdict, missed)):
+    open_ = never_came(world, verdict, missed)
+    if ended is not None and (waits or len(open_) == len(missed)):
         return _cause("plan", ended)
     # What is asked of both after the trigger is missed by how the ego then drives; all else by what came to be at it.
     later = len(failed) == len(missed) and all(world.structure.roles[each.id] is Role.OUTCOME for each in failed)
@@ -97,7 +110,7 @@ def cause_of(world: World, run: Run, verdict: Verdict, tolerance: Tolerance, pro
         return _cause("authority", Finding(f"{limit.text}, and {why}", {**otherwise.evidence, **limit.evidence}))
     if limit is not None:
         return _cause("authority", limit)
-    left = otherwise or ended or _planned_so(run, hero, until_s, missed, hit, does_all=not failed)
+    left = otherwise or (ended if open_ else None) or _planned_so(run, hero, until_s, missed, hit, does_all=not failed)
     if in_way is not None:
         left = Finding(f"{left.text}; {in_way}", {**left.evidence, "in_way": asdict(in_way)})
     return _cause("prediction" if otherwise else "plan", left)
@@ -137,7 +150,7 @@ def _denied(
         its_own = condition.id in alone and condition.kind not in ("initial", "trigger")
         if its_own and of_both.isdisjoint(knots_of(alone[condition.id].formula)):
             words, told = in_words(program, alone[condition.id]), condition.off_by
-            off = "off" if condition.required is not None else "off_tolerances"
+            off = "off" if condition.unit or condition.required is not None else "off_tolerances"
             return Finding(
                 f'the ego alone decides on "{words}", and did not do it' + (told and f", off by {told}"),
                 {"condition": condition.id, "proof": [str(condition.text)], off: condition.error},

@@ -21,7 +21,6 @@ from scenewright.program.types import EGO, Actor, Constraint
 from scenewright.roads.routes import Route
 from scenewright.simulate.loop import Run
 from scenewright.simulate.world import World
-from scenewright.solve.arrival import linear_conditions, tight_of
 from scenewright.trace.model import ActorTrace
 from scenewright.translate.lines import in_words, told_constraints
 from scenewright.translate.phrases import called
@@ -40,7 +39,7 @@ class Finding:
 
 
 # -- the ego --------------------------------------------------------------------------------------------------------
-def ego_never_there(world: World, run: Run, verdict: Verdict) -> Finding | None:
+def ego_never_there(world: World, verdict: Verdict) -> Finding | None:
     """Return how near the ego came to its side of the trigger, where it never came to all of it at once."""
     program = world.scene.program
     told = told_constraints(program)
@@ -51,24 +50,7 @@ def ego_never_there(world: World, run: Run, verdict: Verdict) -> Finding | None:
             words = in_words(program, constraint) if constraint else side["side"]
             off = None if side["error"] is None else f"off by {side['error']:.2f} {side['unit']}".rstrip()
             return _never(words, off, side["time_s"], {"condition": constraint and constraint.id, "off": side["error"]})
-    ego, knot = run.trace.actors[program.ego.name], world.structure.trigger_knot(EGO)
-    off_by: dict[str, list[float]] = {}
-    for side in linear_conditions(world.scene, world.structure):
-        if side.moments == {(EGO, knot)} and set(side.weights) == {EGO}:
-            off_by[side.constraint_id] = [
-                abs(side.value({EGO: (s_m, speed)}))
-                / (tight_of(side, speed) if side.weights[EGO][0] else TIGHT.speed_mps)
-                for s_m, speed in zip(ego.s_m.tolist(), ego.speed_mps.tolist(), strict=True)
-            ]
-    if not off_by:
-        return None
-    worst = np.max(list(off_by.values()), axis=0)
-    best = int(worst.argmin())
-    if worst[best] <= 1.0:
-        return None
-    words = " and ".join(dict.fromkeys(in_words(program, each) for each in map(program.constraint, off_by)))
-    off = f"off by {worst[best]:.1f} tight tolerances"
-    return _never(words, off, float(ego.time_s[best]), {"off_tolerances": float(worst[best])})
+    return None
 
 
 def _never(words: str, off: str | None, time_s: float | None, evidence: Mapping[str, Any]) -> Finding:
@@ -123,8 +105,9 @@ def foreseen_otherwise(
     times = np.arange(tick.time_s, then_s + 1e-9, _LOOKED_AT_S)
     left = (t for t in times.tolist() if _is_off(foreseen.state(t), ego, t))
     since_s = next(left, then_s)
-    late = f", and the trigger came, or was nearest, {abs(off_s):.1f} s {'later' if off_s > 0 else 'sooner'}"
-    came = late if abs(off_s) > TIGHT.time_s else ""
+    acted = f", and {called(hero.name)} acted {abs(off_s):.1f} s {'later' if off_s > 0 else 'sooner'}"
+    never = f", and {called(hero.name)} had yet to act {off_s:.1f} s later, when the run ended"
+    came = "" if abs(off_s) <= TIGHT.time_s else acted if until_s < run.trace.duration_s else never
     text = (
         f"the ego did not drive as foreseen: at {then_s:.1f} s it was {abs(off_m):.1f} m further "
         f"{'on' if off_m > 0 else 'back'} and {abs(off_mps):.1f} m/s {'faster' if off_mps > 0 else 'slower'} than in "

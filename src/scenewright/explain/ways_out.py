@@ -133,7 +133,7 @@ def _measured(scene: Scene, verdict: Verdict, failed: Sequence[str]) -> Iterator
     """Yield what was measured for numbers that were required, what was named first; else what was off, either way."""
     named = verdict.cause.evidence if verdict.cause is not None else {}
     conditions = {condition.id: condition for condition in verdict.conditions if condition.id in failed}
-    if verdict.facts["ego_never_met_condition"]:  # what was measured at a trigger that never came says nothing
+    if not all(verdict.facts["trigger_came"].values()):  # what was measured at one that never came says nothing
         conditions = {name: each for name, each in conditions.items() if each.kind != "trigger"}
     for name in sorted(conditions, key=lambda name: name != named.get("condition")):
         condition = conditions[name]

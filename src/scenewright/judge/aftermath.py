@@ -18,8 +18,8 @@ from scenewright.judge.case import Case
 from scenewright.judge.tolerance import TIGHT
 from scenewright.program.types import EGO
 from scenewright.translate.phrases import called
+from scenewright.units import in_tenths
 
-_NEAR_M = 0.1
 _BRAKES_MPS2 = 0.05  # less than what is told as 0.1 m/s^2 is no braking
 
 
@@ -81,12 +81,12 @@ class Aftermath:
             then = "; the run goes on as if they had not touched, for what was still to come" if on else ""
             return f"{self.collision.in_words()}; until then {braked}{then}"
         measures = [
-            # A hair's breadth is not to read as a touch.
-            (self.closest_m, "closest {:.1g} m" if (self.closest_m or 0.0) < _NEAR_M else "closest {:.1f} m"),
-            (self.min_ttc_s, "time to collision at least {:.1f} s"),
-            (self.post_encroachment_s, "passed {:.1f} s apart"),
+            (self.closest_m, "closest {} m"),
+            (self.min_ttc_s, "time to collision at least {} s"),
+            (self.post_encroachment_s, "passed {} s apart"),
         ]
-        return "no collision; " + ", ".join([*(words.format(v) for v, words in measures if v is not None), braked])
+        told = [words.format(in_tenths(value)) for value, words in measures if value is not None]
+        return "no collision; " + ", ".join([*told, braked])
 
     def as_dict(self) -> dict[str, Any]:
         """Return what came of it in the form of `verdict.json`, its words as `text`."""

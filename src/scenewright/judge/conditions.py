@@ -12,20 +12,23 @@ from fractions import Fraction
 import numpy as np
 
 from scenewright.judge.case import CannotJudge, Case, NotReached
-from scenewright.judge.formulas import error_of, instants_of_piece, is_order, miss_of
+from scenewright.judge.formulas import error_of, held_over, instants_of_piece, is_order, looked_at, miss_of
 from scenewright.judge.knots import Measured
 from scenewright.judge.terms import Moments, sides
-from scenewright.judge.tolerance import TIGHT, Leaf, Values, dimension_of, normalised, unit_symbol
+from scenewright.judge.tolerance import TIGHT, Leaf, Values, dimension_of, normalised, only_dimension, unit_symbol
 from scenewright.judge.verdict import Condition, Kind, unjudged
 from scenewright.program.expressions import (
+    CONTRARY,
     Arithmetic,
     Compare,
     Formula,
     Knot,
     Landmark,
+    Logic,
     Number,
     PieceRef,
     State,
+    Temporal,
     Term,
     piece_of,
     walk,
@@ -75,13 +78,39 @@ def _judge(case: Case, measured: Measured, constraint: Constraint, text: str) ->
     try:
         if isinstance(formula, Compare):
             return _comparison(case, measured.moments, constraint.id, kind, text, formula)
-        miss = miss_of(case, formula, measured.moments)
-        error = float(normalised(miss, TIGHT))
-        return Condition(constraint.id, kind, f"{text} (error in tight tolerances)", None, None, error, "", miss)
+        return _compound(case, measured.moments, constraint.id, kind, text, formula)
     except NotReached as reason:
         return _not_reached(case, measured, constraint, kind, text, reason)
     except CannotJudge as reason:
         return unjudged(constraint.id, kind, text, str(reason))
+
+
+def _compound(case: Case, moments: Moments, name: str, kind: Kind, text: str, formula: Logic | Temporal) -> Condition:
+    """Judge what several things, or one for some time, have to be; of the latter what decides it is told."""
+    required, value = None, None
+    if isinstance(formula, Temporal):
+        instants = looked_at(case, formula, moments)
+        miss = held_over(case, formula, moments, instants)
+        if isinstance(formula.body, Compare) and len(instants):
+            required, value = _deciding(case, formula, formula.body, replace(moments, now=instants))
+    else:
+        miss = miss_of(case, formula, moments)
+    dimension = only_dimension(miss)
+    error = float(normalised(miss, TIGHT)) * (TIGHT.of(dimension) if dimension else 1.0)
+    if dimension is None:
+        return Condition(name, kind, f"{text} (error in tight tolerances)", None, None, error, "", miss)
+    return Condition(name, kind, text, required, value, error, unit_symbol(dimension), miss)
+
+
+def _deciding(
+    case: Case, formula: Temporal, body: Compare, moments: Moments
+) -> tuple[float, float] | tuple[None, None]:
+    """Return required and measured value of a comparison where it holds least, or best, over some time."""
+    if formula.operator == "never":
+        if body.operator == "==":
+            return None, None
+        body = replace(body, operator=CONTRARY[body.operator])
+    return _stated(case, body, *sides(case, body, moments), best=formula.operator == "eventually")
 
 
 def _comparison(case: Case, moments: Moments, name: str, kind: Kind, text: str, compare: Compare) -> Condition:
@@ -109,20 +138,21 @@ def _comparison(case: Case, moments: Moments, name: str, kind: Kind, text: str, 
     return Condition(name, kind, text, required, value, error, unit, miss)
 
 
-def _stated(case: Case, compare: Compare, left: Values, right: Values) -> tuple[float, float]:
-    """Return required and measured value as people would state them, at the worst instant where there are several."""
+def _stated(case: Case, compare: Compare, left: Values, right: Values, best: bool = False) -> tuple[float, float]:
+    """Return required and measured value as people would state them, at the worst (or best) instant of several."""
     required, value = np.broadcast_arrays(np.asarray(right, dtype=float), np.asarray(left, dtype=float))
     over = np.abs(value - required) if compare.operator == "==" else value - required
-    worst = np.unravel_index(np.argmin(over) if compare.operator in (">", ">=") else np.argmax(over), over.shape)
+    least = (compare.operator in (">", ">=")) != best
+    worst = np.unravel_index(np.argmin(over) if least else np.argmax(over), over.shape)
     if not _is_measured(compare.left) and _is_measured(compare.right):
         required, value = value, required
     required, value = required[worst], value[worst]
     match compare:
         # "12 m short of the stop line" is a distance; the arc length it comes to tells nobody anything.
-        case Compare(operator="==", left=State(order=0), right=Arithmetic("-", Landmark() as place, distance)):
+        case Compare("==", State(order=0, actor=actor), Arithmetic(("-" | "+") as sign, Landmark() as place, distance)):
             asked = _constant(case, distance)
-            if asked is not None and place.actor in (None, compare.left.actor):  # type: ignore[union-attr]
-                return asked, asked + float(required) - float(value)
+            if asked is not None and place.actor in (None, actor):
+                return asked, asked + (float(value) - float(required)) * (1.0 if sign == "+" else -1.0)
     return float(required), float(value)
 
 

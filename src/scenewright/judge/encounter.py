@@ -7,7 +7,7 @@ orchestrate.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -17,9 +17,9 @@ from scenewright.judge.formulas import miss_of
 from scenewright.judge.instants import minima
 from scenewright.judge.knots import Measured, sides_of
 from scenewright.judge.terms import Moments
-from scenewright.judge.tolerance import LOOSE, TIGHT, FloatArray, dimension_of, normalised, unit_symbol
+from scenewright.judge.tolerance import LOOSE, TIGHT, FloatArray, Miss, Values, normalised, only_dimension, unit_symbol
 from scenewright.judge.verdict import Condition
-from scenewright.program.expressions import Compare, Derived, Formula, State, walk
+from scenewright.program.expressions import Derived, Formula, Logic, State, walk
 from scenewright.program.printer import print_expression
 from scenewright.program.structure import KnotKey, Role, knots_of
 from scenewright.program.types import EGO
@@ -53,18 +53,42 @@ def encounter_facts(case: Case, measured: Measured) -> dict[str, Any]:
     apart_s: list[float] = []
     for instant in dict.fromkeys(case.structure.triggers.values()):
         sides: list[dict[str, Any]] = []
+        whole: dict[frozenset[int], list[Formula]] = {}
         for part in sides_of(case, instant, starts):
             evidence = _closest(case, part, told.get(part) or print_expression(part), instant, measured)
             if evidence is None:
                 continue
-            actors = _actors(part)
-            who = "pair" if len(actors) > 1 else "ego" if actors == {EGO} else "hero"
-            sides.append({"who": who, "actors": [case.name(actor) for actor in sorted(actors)], **evidence})
-            facts[f"{who}_never_met_condition"] |= not evidence["met"]
-        facts["closest"] += sides
+            actors = frozenset(_actors(part))
+            whole.setdefault(actors, []).append(part)
+            sides.append(_side_of(case, actors, evidence))
+        facts["closest"] += [*sides, *_not_at_once(case, whole, sides, instant, measured)]
         apart_s += [apart for apart in [_apart(sides)] if apart is not None]
+    for side in facts["closest"]:
+        facts[f"{side['who']}_never_met_condition"] |= not side["met"]
     facts["trigger_sides_apart_s"] = max(apart_s, default=None)
     return facts
+
+
+def _side_of(case: Case, actors: frozenset[int], evidence: Mapping[str, Any]) -> dict[str, Any]:
+    who = "pair" if len(actors) > 1 else "ego" if actors == {EGO} else "hero"
+    return {"who": who, "actors": [case.name(actor) for actor in sorted(actors)], **evidence}
+
+
+def _not_at_once(
+    case: Case,
+    whole: Mapping[frozenset[int], Sequence[Formula]],
+    sides: Sequence[Mapping[str, Any]],
+    instant: frozenset[KnotKey],
+    measured: Measured,
+) -> Iterator[dict[str, Any]]:
+    """Yield the sides of those who met each part of theirs at some time, and never all of them at once."""
+    for actors, parts in whole.items():
+        own = [side for side in sides if side["actors"] == [case.name(actor) for actor in sorted(actors)]]
+        if len(parts) > 1 and all(side["met"] for side in own):
+            words = " and ".join(dict.fromkeys(side["side"] for side in own))
+            evidence = _closest(case, Logic("and", tuple(parts)), words, instant, measured)
+            if evidence is not None and not evidence["met"]:
+                yield _side_of(case, actors, evidence)
 
 
 def _actors(part: Formula) -> set[int]:
@@ -77,10 +101,11 @@ def _closest(
 ) -> dict[str, Any] | None:
     """Return how near one side came to being met, at the instant nearest to the trigger among equally good ones."""
 
+    def miss(time_s: Values) -> Miss:
+        return miss_of(case, part, Moments({**measured.moments.knots, **dict.fromkeys(instant, time_s)}))
+
     def score(time_s: FloatArray) -> FloatArray:
-        moments = Moments({**measured.moments.knots, **dict.fromkeys(instant, time_s)})
-        errors = np.asarray(normalised(miss_of(case, part, moments), TIGHT), dtype=np.float64)
-        return np.broadcast_to(errors, time_s.shape)
+        return np.broadcast_to(np.asarray(normalised(miss(time_s), TIGHT), dtype=np.float64), time_s.shape)
 
     try:
         found = minima(score, case.timelines[EGO].instants(case.start_s, case.end_s, parts=2))
@@ -92,13 +117,12 @@ def _closest(
         return {"side": told, "met": False, "error": None, "unit": "", "time_s": None}
     good = [minimum for minimum in found if minimum.score <= found[0].score + 1e-3]
     best = min(good, key=lambda minimum: abs(minimum.time_s - trigger_s))
-    dimension = dimension_of(part) if isinstance(part, Compare) else None
-    error = best.score * TIGHT.of(dimension) if isinstance(part, Compare) else best.score
+    dimension = only_dimension(miss(best.time_s))
     return {
         "side": told,
         "met": bool(best.score <= 1),
-        "error": error,
-        "unit": unit_symbol(dimension),
+        "error": best.score * (TIGHT.of(dimension) if dimension else 1.0),
+        "unit": unit_symbol(dimension) or "tight tolerances",
         "time_s": best.time_s,
     }
 

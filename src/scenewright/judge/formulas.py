@@ -53,7 +53,7 @@ def miss_of(case: Case, formula: Formula, moments: Moments, negated: bool = Fals
         case Logic(operator=operator, operands=operands):
             return _join(case, operands, moments, negated, every=(operator == "and") != negated)
         case Temporal():
-            return _temporal(case, formula, moments, negated)
+            return held_over(case, formula, moments, looked_at(case, formula, moments, negated), negated)
 
 
 def _join(case: Case, operands: tuple[Formula, ...], moments: Moments, negated: bool, every: bool) -> Miss:
@@ -118,32 +118,45 @@ def _leaf(case: Case, compare: Compare, moments: Moments, negated: bool) -> Leaf
     return Leaf(error, dimension)
 
 
-def _temporal(case: Case, formula: Temporal, moments: Moments, negated: bool) -> Miss:
+def held_over(case: Case, formula: Temporal, moments: Moments, instants: FloatArray, negated: bool = False) -> Miss:
+    """Return by how much the body of a formula is missed where it is `looked_at`."""
+    lasting, body_negated = (formula.operator != "eventually") != negated, (formula.operator == "never") != negated
+    if not len(instants):  # what holds always holds, what holds sometime does not
+        return Leaf(0.0 if lasting else np.inf, None)
+    part = miss_of(case, formula.body, replace(moments, now=instants), body_negated)
+    return Throughout(part) if lasting else Sometime(part)
+
+
+def looked_at(case: Case, formula: Temporal, moments: Moments, negated: bool = False) -> FloatArray:
+    """Return the instants of a stretch of time at which its body is looked at, the worst or the best one among them.
+
+    Raises
+    ------
+    CannotJudge
+        If the run did not last for it.
+    """
     if any(isinstance(node, Temporal) for node in walk(formula.body)):
         raise CannotJudge("one temporal operator inside another")
     start, end = sides(case, Compare("<=", formula.start, formula.end), moments)
     start_s, end_s = case.start_s + max(0.0, float(start)), case.start_s + float(end)
     if not np.isfinite(start_s) or start_s > case.end_s:
         raise CannotJudge("the run ended before the stretch of time began")
-    lasting = (formula.operator != "eventually") != negated
-    if end_s < start_s - _ROUNDING_S:  # at no instant: what holds always holds, what holds sometime does not
-        return Leaf(0.0 if lasting else np.inf, None)
+    lasting, body_negated = (formula.operator != "eventually") != negated, (formula.operator == "never") != negated
+    if end_s < start_s - _ROUNDING_S:
+        return np.array([])
     end_s = max(start_s, end_s)
     if lasting and np.isfinite(end_s) and end_s > case.end_s + TIGHT.time_s:
         raise CannotJudge(f"the run ended {end_s - case.end_s:.2f} s before the stretch of time did")
-    body_negated = (formula.operator == "never") != negated
 
     def body(time_s: FloatArray) -> Miss:
         return miss_of(case, formula.body, replace(moments, now=time_s), body_negated)
 
-    sign = -1.0 if lasting else 1.0
     steps = lasting and any(isinstance(node, State) and node.order == 2 for node in walk(formula.body))
     if steps and end_s - start_s > 4 * TIGHT.time_s:
         # Accelerations step at knots, and knots are met within a time tolerance: the ends are not held against anybody.
         start_s, end_s = start_s + TIGHT.time_s, end_s - TIGHT.time_s
     coarse = case.timelines[0].instants(start_s, end_s)
-    instants = np.union1d(coarse, sharpen(_scorer(body, sign), coarse))
-    return Throughout(body(instants)) if lasting else Sometime(body(instants))
+    return np.union1d(coarse, sharpen(_scorer(body, -1.0 if lasting else 1.0), coarse))
 
 
 def _scorer(body: Callable[[FloatArray], Miss], sign: float) -> Callable[[FloatArray], FloatArray]:

@@ -125,6 +125,18 @@ def normalised(miss: Miss, tolerance: Tolerance) -> Values:
             return float(np.min(normalised(part, tolerance)))
 
 
+def only_dimension(miss: Miss) -> Dimension | None:
+    """Return the dimension of all errors of a miss; None where they have several, or one has none."""
+    match miss:
+        case Leaf(dimension=dimension):
+            return dimension
+        case Every(parts=parts) | Some(parts=parts):
+            found = {only_dimension(part) for part in parts}
+            return found.pop() if len(found) == 1 else None
+        case Throughout(part=part) | Sometime(part=part):
+            return only_dimension(part)
+
+
 def dimension_of(node: Compare) -> Dimension | None:
     """Return the dimension of what is compared; None for plain numbers and for products that have no name here."""
     exponents = _exponents(node.left) or _exponents(node.right)

@@ -32,7 +32,7 @@ class Condition:
         In `unit`; the error is signed (measured minus required) for equalities, and how far beyond the bound otherwise.
         None where there is nothing to state as one number.
     unit
-        SI symbol.
+        SI symbol; empty where what is compared has none, and where an error is of several: that is in tight tolerances.
     miss
         The error by dimension, to which tolerances are applied; None where the condition could not be judged, which
         fails.
@@ -64,7 +64,7 @@ class Condition:
         """By how much it is missed, in words; nothing where there is no number for it."""
         if self.error is None or not math.isfinite(self.error):
             return ""
-        return f"{abs(self.error):.2f} {'tight tolerances' if self.required is None else self.unit}".rstrip()
+        return f"{abs(self.error):.2f} {self.unit or ('tight tolerances' if self.required is None else '')}".rstrip()
 
     def as_dict(self) -> dict[str, Any]:
         """Return the condition in the form of `verdict.json`."""

@@ -74,8 +74,10 @@ class Ending:
         for name, condition in tuple(self._awaited.items()):
             states = {actor: (now.actors[actor].s_m, now.actors[actor].speed_mps) for actor in condition.weights}
             value, per_metre = condition.value(states), condition.weights[EGO][0]
-            passes = per_metre if len(states) == 1 and per_metre else -self._first.setdefault(name, value)
-            if value * passes >= 0.0 or abs(value) < _THERE:
+            place = per_metre if len(states) == 1 else 0.0
+            passes = place or -self._first.setdefault(name, value)
+            comes = place and now.actors[EGO].speed_mps > _MOVES_MPS  # who moves on will have passed it
+            if value * passes >= 0.0 or (abs(value) < _THERE and not comes):
                 del self._awaited[name]
         return bool(self._awaited)
 

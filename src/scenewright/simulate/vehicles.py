@@ -76,8 +76,8 @@ class EgoVehicle:
 
 
 def seen(scene: Scene, heroes: Mapping[int, ActorState]) -> tuple[VehicleState, ...]:
-    """Return the heroes as the ego's policy sees them: where they are, not where they are going."""
-    return tuple(_seen(hero.name, heroes[hero.id]) for hero in scene.program.heroes)
+    """Return heroes as the ego's policy sees them, those that there are: where they are, not where they are going."""
+    return tuple(_seen(hero.name, heroes[hero.id]) for hero in scene.program.heroes if hero.id in heroes)
 
 
 def _seen(name: str, state: ActorState, s_m: float | None = None, route: Route | None = None) -> VehicleState:

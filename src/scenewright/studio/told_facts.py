@@ -10,6 +10,8 @@ import math
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from scenewright.units import in_tenths
+
 Told = tuple[str, float | None]
 _STEADY_MPSS = 0.005  # what is less reads as nothing
 
@@ -39,7 +41,8 @@ def _triggers(facts: Mapping[str, Any]) -> Iterator[Told]:
         if error is None or moment is None:
             continue
         off = f"came to within {abs(error):.2g} {side.get('unit') or ''}".rstrip()
-        held = "was there" if side.get("met") else off
+        there = "was there" if len(side.get("actors") or ()) < 2 else "were there"
+        held = there if side.get("met") else off
         names = [str(name) for name in side.get("actors") or [side.get("who")]]
         who, alone = " and ".join(names).capitalize(), "by itself" if len(names) == 1 else "together"
         yield f"{who}, {alone}, {held}: {side.get('side')}.", moment
@@ -69,19 +72,21 @@ def _pair(pair: str, values: Mapping[str, Any]) -> Iterator[Told]:
     if crash is not None:
         yield f"{two.capitalize()} collided at {crash:.2f} s.", crash
     elif nearest is not None:
-        yield f"{two.capitalize()} came within {nearest:.1f} m of each other, body to body, and never touched.", moment
+        apart = f"within {in_tenths(nearest)} m of each other, body to body"
+        yield f"{two.capitalize()} came {apart}, and never touched.", moment
     least, when = _number(values.get("min_ttc_s")), _number(values.get("min_ttc_time_s"))
     yield (
-        (f"Their time to collision was {least:.1f} s at least.", when)
+        (f"Their time to collision was {in_tenths(least)} s at least.", when)
         if least is not None
         else (
-            "They were never on the way to a collision, as their motion stood.",
+            "They were never within 8 s of a collision, as their motion stood.",
             None,
         )
     )
     after = _number(values.get("post_encroachment_time_s"))
     if after is not None:
-        yield f"The second came to a place that the first had been at {after:.1f} s after that had left it.", None
+        later = f"{in_tenths(after)} s after that had left it"
+        yield f"The second came to a place that the first had been at {later}.", None
 
 
 def _motion(name: str, values: Mapping[str, Any]) -> Iterator[Told]:

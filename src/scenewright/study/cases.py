@@ -12,7 +12,7 @@ import shlex
 import shutil
 import time
 import zlib
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
@@ -199,7 +199,11 @@ def _with_takes(record: CaseRecord, row: BenchmarkRow, result: Result) -> CaseRe
         criteria_disagree=any(take.disagrees for take in takes),
         failed_conditions=[each.id for each in conditions] + [f"criterion {each.id}" for each in criteria],
         proof=_clashes(hindsight),
-        **asdict(approach),
+        reverses=approach.reverses,
+        stands=approach.stands,
+        jerks_mpsss=approach.jerks_mpsss,
+        accels_mpss=approach.accels_mpss,
+        pace=approach.pace,
     )
 
 
