@@ -127,6 +127,14 @@ def test_a_moment_of_both_that_both_miss_is_not_the_egos_to_miss(failed: tuple[s
     assert (found is not None) is whose
 
 
+def test_when_a_moment_of_both_comes_is_not_the_egos_alone() -> None:
+    """How long after the ego was at a place a hero acts is said of moments of the ego: one is the hero's, too."""
+    asked = "A0x(t1) == stop_line - 60\nlater: A0(t2) - A0(t1) == 1.96\nA0(t2) == A1(t1)\nA1v(t2) == 0\n"
+    told = parse_program(program("E, N", "t0, go, t1, dec, t2", asked))
+    missed = Condition("later", "outcome", "later", 1.96, 1.3, -0.66, "s", Leaf(0.66, "time"))
+    assert _denied(told, [missed], [told.constraint("later")], None) is None
+
+
 @pytest.mark.parametrize(("name", "told"), [("start", "brakes with 6.0 m/s^2 at once"), ("c1", "no first plan")])
 def test_a_run_that_fails_by_its_beginning_is_told_what_its_first_plan_gave_up(name: str, told: str) -> None:
     request = Request(STORIES["yields, distance"], ego="constant", takes=1, replan_hz=4.0)

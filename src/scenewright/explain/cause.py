@@ -25,7 +25,7 @@ from scenewright.judge.aftermath import Collision
 from scenewright.judge.tolerance import Tolerance
 from scenewright.judge.verdict import Cause, CauseKind, Condition, Verdict
 from scenewright.plan.planner import GOOD
-from scenewright.program.expressions import Temporal, walk
+from scenewright.program.expressions import Compare, Elapsed, Temporal, walk
 from scenewright.program.structure import Role, actors_of, knots_of, read_structure
 from scenewright.program.types import EGO, Actor, Constraint, Program
 from scenewright.simulate.loop import Run
@@ -131,7 +131,10 @@ def _denied(
     alone = {constraint.id: constraint for constraint in failed if actors_of(constraint.formula) == {EGO}}
     # A moment of both at which heroes miss their side too is nearest to either side: it tells nothing of one alone.
     theirs = {key for constraint in failed if constraint.id not in alone for key in knots_of(constraint.formula)}
-    of_both = {key for instant in read_structure(program).instants if instant & theirs for key in instant}
+    instants = read_structure(program).instants
+    of_both = {key for instant in instants if instant & theirs for key in instant}
+    # When a moment of both comes is in a hero's hands, too: "so long after the ego was there" is of the ego's moments.
+    shared = {key for instant in instants if any(actor != EGO for actor, _ in instant) for key in instant}
     if proof is not None:
         clashes = [clash for clash in proof.clashes if clash.formula is not None]
         told = ", ".join(dict.fromkeys(f'"{clash.words or clash.told}"' for clash in clashes))
@@ -147,8 +150,12 @@ def _denied(
             )
     for condition in missed:
         # Where it starts, and when a trigger comes, is not in its hands alone.
-        its_own = condition.id in alone and condition.kind not in ("initial", "trigger")
-        if its_own and of_both.isdisjoint(knots_of(alone[condition.id].formula)):
+        if condition.id not in alone or condition.kind in ("initial", "trigger"):
+            continue
+        formula = alone[condition.id].formula
+        times = walk(formula) if isinstance(formula, Compare) else ()
+        timed = any(isinstance(node, Elapsed) and (node.actor, node.knot) in shared for node in times)
+        if not timed and of_both.isdisjoint(knots_of(formula)):
             words, told = in_words(program, alone[condition.id]), condition.off_by
             off = "off" if condition.unit or condition.required is not None else "off_tolerances"
             return Finding(
