@@ -54,6 +54,23 @@ def test_given_speed_leaves_no_choice(ego: str) -> None:
         assert start.accel_mpss > 0.5, "slower than it wishes, it is known to speed up from the first moment on"
 
 
+@pytest.mark.parametrize("ego", EGOS)
+@pytest.mark.parametrize(
+    ("bound", "least", "most"),
+    [("A0v(t0) <= 6", (0, 0), (999, 6)), ("A0v(t0) >= 15", (0, 15), (999, 60)), ("A0x(t0) <= 90", (0, 0), (90, 60)),
+     ("A0x(t0) >= 240", (240, 0), (999, 60)), ("A0x(t0) >= 120\nA0x(t0) <= 125", (120, 0), (125, 60))],
+)  # fmt: skip
+def test_it_begins_within_the_bounds_that_are_told(
+    ego: str, bound: str, least: tuple[float, float], most: tuple[float, float]
+) -> None:
+    found = starts(stage(bound, ego))
+    assert found
+    for start in found:
+        assert least[0] <= start.s_m <= most[0]
+        assert least[1] <= start.speed_mps <= most[1]
+    assert len({(start.s_m, start.speed_mps) for start in found}) == len(found)
+
+
 def test_given_place_and_speed() -> None:
     on = stage("A0x(t0) == intersection - 60\nA0v(t0) == 25 km/h", "idm")
     (start,) = starts(on)

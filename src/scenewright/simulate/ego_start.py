@@ -21,7 +21,7 @@ from scenewright.program.structure import Structure
 from scenewright.program.types import EGO, PieceKind
 from scenewright.roads.grounding import Scene
 from scenewright.simulate.vehicles import EgoVehicle
-from scenewright.solve.arrival import LinearCondition, knot_between_s
+from scenewright.solve.arrival import LinearCondition, ego_begins_between, knot_between_s
 
 _RUN_UP_M = 90.0
 # Before it comes to its first place, where the program does not say when that is, but no longer than heroes take for
@@ -53,6 +53,10 @@ class EgoFirstState:
     last_resort: bool = False
 
 
+def _within(value: float, bounds: tuple[float, float]) -> float:
+    return min(max(value, bounds[0]), bounds[1])
+
+
 class _Way:
     """What the program says of the ego's way.
 
@@ -82,6 +86,7 @@ class _Way:
             own = (sketch.knot_index(name) for who, name in condition.moments if who == EGO)
             return min(own, default=len(sketch.knots))  # what is of a hero's knot comes behind all of the ego's
 
+        self._places_m, self._speeds_mps = ego_begins_between(scene)
         self.begins = next((c for c in placed if c.moments == {first}), None)
         self.speed_mps = told_speed_mps(scene, conditions)
         self.later = sorted((c for c in placed if first not in c.moments), key=order)
@@ -97,7 +102,11 @@ class _Way:
         if self.begins is not None:
             return self.begins.place_m(EGO, speed_mps)
         there_m = self.later[0].place_m(EGO, speed_mps) if self.later else self.middle_m
-        return max(1.0, there_m - self.lead_s * speed_mps)
+        return _within(max(1.0, there_m - self.lead_s * speed_mps), self._places_m)
+
+    def allowed_mps(self, speed_mps: float) -> float:
+        """Return the nearest speed with which it may begin."""
+        return _within(speed_mps, self._speeds_mps)
 
     def on_time(self, ego: EgoVehicle, start: EgoFirstState) -> EgoFirstState:
         """Return a start from which the policy, alone on the road, comes to its place when the program says."""
@@ -208,15 +217,20 @@ def _possible_starts(ego: EgoVehicle, limits: Limits, way: _Way) -> Iterator[Ego
     holds_speed = ego.policy.envelope is not None and ego.policy.envelope.holds_speed
     if preferred is None and holds_speed:
         fastest = min(limits.turn_speed_max_mps, limits.approach_speed_max_mps)
-        for share in _SPEED_SHARES:
-            speed = max(min(share * limits.natural_turn_speed_mps, fastest), MOVING_MPS)
+        natural_mps = limits.natural_turn_speed_mps
+        speeds_mps = (max(min(share * natural_mps, fastest), MOVING_MPS) for share in _SPEED_SHARES)
+        for speed in dict.fromkeys(map(way.allowed_mps, speeds_mps)):
             yield EgoFirstState(way.start_m(speed), speed)
         return
     steady = _steady(ego, way, preferred or limits.natural_approach_speed_mps)
-    # A policy with moods begins a run in its first one, whatever mood it arrived in.
-    yield replace(steady, accel_mpss=_first_acceleration(ego, steady.s_m, steady.speed_mps))
-    for share in () if holds_speed else _SLOWER_SHARES:  # one that holds its speed has one of its own
-        yield driven(max(share * steady.speed_mps, MOVING_MPS))
+    if (speed := way.allowed_mps(steady.speed_mps)) != steady.speed_mps:
+        yield driven(speed)
+    else:  # a policy with moods begins a run in its first one, whatever mood it arrived in
+        yield replace(steady, accel_mpss=_first_acceleration(ego, steady.s_m, speed))
+    slower_mps = () if holds_speed else (max(share * speed, MOVING_MPS) for share in _SLOWER_SHARES)
+    for slower in dict.fromkeys(map(way.allowed_mps, slower_mps)):  # one that holds its speed has one of its own
+        if slower < speed:
+            yield driven(slower)
 
 
 def _steady(ego: EgoVehicle, way: _Way, speed_mps: float) -> EgoFirstState:

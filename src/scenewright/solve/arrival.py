@@ -22,7 +22,7 @@ from scenewright.roads.grounding import Scene
 from scenewright.solve.proofs.events import EgoBounds, Events
 from scenewright.solve.proofs.forms import TIGHT
 from scenewright.solve.proofs.lowering import Lowering
-from scenewright.solve.proofs.order import least_differences
+from scenewright.solve.proofs.order import least_differences, tightened
 
 HORIZON_S = 90.0
 _ANYBODY = Limits(60.0, 60.0, 60.0, 60.0, 60.0, 60.0)
@@ -155,6 +155,16 @@ def knot_between_s(scene: Scene, key: KnotKey) -> tuple[float, float]:
     formulas = [each.formula for each in Lowering(events).lower(scene.program.constraints)]
     least, begins, knot = least_differences(events, formulas), events.start, events.knot(*key)
     return float(least[begins, knot]), -float(least[knot, begins])
+
+
+def ego_begins_between(scene: Scene) -> tuple[tuple[float, float], tuple[float, float]]:
+    """Return between which places (m) the ego begins, and how fast at least and at most, as far as bounds tell."""
+    events = Events(scene, {actor.id: _ANYBODY for actor in scene.program.actors}, EgoBounds())
+    state = events.state(EGO, events.start)
+    formulas = [each.formula for each in Lowering(events).lower(scene.program.constraints)]
+    ranges = tightened(events.unknowns, formulas)
+    place, speed = (ranges[each.number] for each in (state.place, state.speed))
+    return (float(place.low), float(place.high)), (float(speed.low), float(speed.high))
 
 
 def _weights(events: Events, left: Polynomial) -> dict[int, tuple[float, float]] | None:
