@@ -39,7 +39,7 @@ class Block(NamedTuple):
 
     values: Array
     slopes: Array
-    most: Array | float
+    most: float
     columns: Columns | None
 
 
@@ -63,13 +63,13 @@ class Rows:
     @property
     def most(self) -> Array:
         """From where on the cost of each row grows evenly."""
-        return np.concatenate([np.zeros(0), *(np.broadcast_to(each.most, len(each.values)) for each in self.blocks)])
+        return np.repeat([block.most for block in self.blocks], [len(block.values) for block in self.blocks])
 
     def add(self, value: float, slope: Array, weight: float = 1.0, most: float = _ANY) -> None:
         """Add one row."""
         self.blocks.append(Block(np.array([weight * value]), (weight * slope)[None], most, self.by))
 
-    def add_all(self, values: Array, slopes: Array, weights: Array | float = 1.0, most: Array | float = _ANY) -> None:
+    def add_all(self, values: Array, slopes: Array, weights: Array | float = 1.0, most: float = _ANY) -> None:
         """Add a row for each value, with its slopes in a row."""
         self.blocks.append(Block(weights * values, np.asarray(weights)[..., None] * slopes, most, self.by))
 
@@ -302,7 +302,8 @@ class HeroRows:
         (lasts_s, d_lasts), weight = shot.stands_for(slice(first, last + 1)), wanted.price / TIGHT["speed"]
         share = np.sqrt(lasts_s / CELL_S)
         slopes = d_v - slope[:, None] * d_s + (0.5 * (v - most) / lasts_s)[:, None] * d_lasts
-        self.bounds.add_all(v - most, slopes, share * weight, share * wanted.over_sign_most)
+        for over, by, each in zip((v - most).tolist(), slopes, share.tolist(), strict=True):
+            self.bounds.add(over, by, each * weight, each * wanted.over_sign_most)
         if hero in self.now.waits:
             waits = until_s - shot.time[first : last + 1] > v_there / wanted.sets_off_mpss + wanted.waits_s
             beyond_m = s_m + v**2 / (2.0 * wanted.waits_mpss) + run_up_m - place_m
