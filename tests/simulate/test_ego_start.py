@@ -57,9 +57,15 @@ def test_given_speed_leaves_no_choice(ego: str) -> None:
 @pytest.mark.parametrize("ego", EGOS)
 @pytest.mark.parametrize(
     ("bound", "least", "most"),
-    [("A0v(t0) <= 6", (0, 0), (999, 6)), ("A0v(t0) >= 15", (0, 15), (999, 60)), ("A0x(t0) <= 90", (0, 0), (90, 60)),
-     ("A0x(t0) >= 240", (240, 0), (999, 60)), ("A0x(t0) >= 120\nA0x(t0) <= 125", (120, 0), (125, 60))],
-)  # fmt: skip
+    [
+        ("A0v(t0) <= 6", (0, 0), (999, 6)),
+        ("A0v(t0) >= 15", (0, 15), (999, 60)),
+        ("always[A0(t0), A0(t1)] (A0v >= 9 and A0v <= 11)", (0, 9), (999, 11)),
+        ("A0x(t0) <= 90", (0, 0), (90, 60)),
+        ("A0x(t0) >= 240", (240, 0), (999, 60)),
+        ("A0x(t0) >= 120\nA0x(t0) <= 125", (120, 0), (125, 60)),
+    ],
+)
 def test_it_begins_within_the_bounds_that_are_told(
     ego: str, bound: str, least: tuple[float, float], most: tuple[float, float]
 ) -> None:

@@ -160,11 +160,13 @@ def knot_between_s(scene: Scene, key: KnotKey) -> tuple[float, float]:
 def ego_begins_between(scene: Scene) -> tuple[tuple[float, float], tuple[float, float]]:
     """Return between which places (m) the ego begins, and how fast at least and at most, as far as bounds tell."""
     events = Events(scene, {actor.id: _ANYBODY for actor in scene.program.actors}, EgoBounds())
-    state = events.state(EGO, events.start)
-    formulas = [each.formula for each in Lowering(events).lower(scene.program.constraints)]
+    state, lowering = events.state(EGO, events.start), Lowering(events)
+    formulas = [each.formula for each in lowering.lower(scene.program.constraints)]
     ranges = tightened(events.unknowns, formulas)
     place, speed = (ranges[each.number] for each in (state.place, state.speed))
-    return (float(place.low), float(place.high)), (float(speed.low), float(speed.high))
+    laws = [each.law for each in lowering.narrowings if each.actor == EGO and each.begins() == (events.start,)]
+    least, most = [speed.low, *(law.speed_low for law in laws)], [speed.high, *(law.speed_high for law in laws)]
+    return (float(place.low), float(place.high)), (float(max(least)), float(min(most)))
 
 
 def _weights(events: Events, left: Polynomial) -> dict[int, tuple[float, float]] | None:
