@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from scenarios import BRAKES
 from scenewright.errors import InputError, OutputError, ParameterError, ScenewrightError, TranslationError
 from scenewright.judge.files import judge_run_directory
 from scenewright.judge.tolerance import LOOSE, TIGHT
@@ -90,6 +91,14 @@ def test_unknown_names_are_told() -> None:
         orchestrate(Request("The ego juggles westbound."))
 
 
+def test_a_number_that_makes_no_sense_with_the_values_given_is_told_with_its_line(tmp_path: Path) -> None:
+    file = tmp_path / "zero.scene"
+    file.write_text(f"{BRAKES.text}A1v(t1) <= 50 m / wait_s\n", encoding="utf-8")
+    with pytest.raises(ScenewrightError, match="divided by zero") as caught:
+        orchestrate(Request(str(file), parameters={"wait_s": 0}), until="check")
+    assert f"zero.scene:{len(BRAKES.text.splitlines()) + 1}:19" in str(caught.value)
+
+
 def test_folder_that_cannot_be_written_is_told_before_any_work(tmp_path: Path) -> None:
     (tmp_path / "file").write_text("", encoding="utf-8")
     began: list[str] = []
@@ -117,6 +126,11 @@ def test_stops_where_it_is_asked_to(until: str, stages: list[str]) -> None:
     assert (result.status, began) == ("success", stages)
     assert (result.attempt is not None) == (until == "plan")
     assert (result.run, result.run_directory) == (None, None)
+
+
+def test_a_stage_that_is_none_is_not_taken_for_the_last() -> None:
+    with pytest.raises(InputError, match="no such stage"):
+        orchestrate(Request(BRAKES.text), until="planned")  # type: ignore[arg-type]
 
 
 def test_nothing_is_written_of_a_plan(tmp_path: Path) -> None:

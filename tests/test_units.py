@@ -40,6 +40,7 @@ def test_factors_are_exact(symbol: str, si: str) -> None:
         ("speed_mph", "mph"),
         ("speed_kmph", "km/h"),
         ("speed_kph", "km/h"),
+        ("speed_kmh", "km/h"),
         ("gap_ft", "ft"),
         ("mpss", None),
         ("distance", None),

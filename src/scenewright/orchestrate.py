@@ -14,9 +14,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, get_args
 
-from scenewright.errors import PolicyError, ScenewrightError, SimulatorError
+from scenewright.errors import InputError, PolicyError, ScenewrightError, SimulatorError
 from scenewright.explain.approach import approach_of
 from scenewright.judge.tolerance import LOOSE, TIGHT, dimension_of
 from scenewright.judge.tolerance import Tolerance as Tolerances
@@ -31,7 +31,7 @@ from scenewright.simulate.loop import Rates
 from scenewright.simulate.port import SIMULATORS
 from scenewright.simulate.world import World
 from scenewright.solve.holding import not_held
-from scenewright.translate.sources import read_scenario
+from scenewright.translate.sources import read_scenario, text_of
 
 if TYPE_CHECKING:
     from scenewright.judge.case import Case
@@ -68,6 +68,8 @@ def orchestrate(
     ScenewrightError
         Where the input is wrong; every subclass says what and how to mend it.
     """
+    if until not in get_args(Stop):
+        raise InputError("there is no such stage", found=repr(until), expected=", ".join(map(repr, get_args(Stop))))
     stages = Stages(report)
     world, result, answer = begin(request, stages)
     if answer == "infeasible":
@@ -249,7 +251,8 @@ def set_up(request: Request, stages: Stages) -> tuple[World, Understanding | Non
         )
     with stages("ground"):
         scene = ground(program, load_map(request.map_name or program.map_name), request.parameters)
-        check_values(program, scene.parameters, name=program.name)
+        text, name = text_of(request.source) if understanding is None else (None, program.name)
+        check_values(program, scene.parameters, text, name)
     rates = Rates(replan_s=None if request.mode == "open" else 1.0 / request.replan_hz)
     ego, seed, predictor = request.ego, request.seed, request.predictor
     world = World(scene, ego, seed, rates, predictor, request.solver, request.simulator)

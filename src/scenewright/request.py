@@ -6,13 +6,17 @@ whoever tells of it. Nothing is done here.
 
 from __future__ import annotations
 
+import math
+import os
 import time
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from numbers import Integral, Real
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, get_args
 
+from scenewright.errors import InputError
 from scenewright.translate.model.exchange import TranslatorSettings
 
 if TYPE_CHECKING:
@@ -29,6 +33,7 @@ Mode = Literal["closed", "open"]
 PlannerName = Literal["convex", "smt"]
 Tolerance = Literal["tight", "loose"]
 Level = Literal["fine", "tight", "loose", "coarse"]
+Explain = Literal["nothing", "cause", "ways out"]
 Status = Literal["success", "failure", "infeasible", "gave up", "interrupted", "failed"]
 EXIT_STATUS: dict[Status, int] = {
     "success": 0,
@@ -40,6 +45,14 @@ EXIT_STATUS: dict[Status, int] = {
 }
 Stop = Literal["check", "plan", "end"]
 Report = Callable[[str], None]
+_WORDS: dict[str, tuple[object, ...]] = {
+    "mode": get_args(Mode),
+    "tolerance": get_args(Tolerance),
+    "aim": (None, *get_args(Level)),
+    "explain": get_args(Explain),
+    "planner": get_args(PlannerName),
+}
+_RANGES = {"seed": (Integral, 0, math.inf), "takes": (Integral, 1, 20), "replan_hz": (Real, 0.1, 50.0)}
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +63,11 @@ class Request:
     Takes go on until one holds at the tolerance `aim`, by itself that which decides. A `simulator` may drive the ego
     itself; the policy `ego` is then only asked how it would start. The `planner` ``smt`` is the paper's own loop: it
     foresees the ego by itself, and rehearses nothing.
+
+    Raises
+    ------
+    InputError
+        For a word or a number that is none of those that there are.
     """
 
     source: str
@@ -65,11 +83,34 @@ class Request:
     replan_hz: float = 10.0
     predictor: str = "road"
     takes: int = 3
-    explain: Literal["nothing", "cause", "ways out"] = "cause"
+    explain: Explain = "cause"
     solver: str = "z3"
     simulator: str = "builtin"
     planner: PlannerName = "convex"
     translation: TranslatorSettings = field(default_factory=TranslatorSettings)
+
+    def __post_init__(self) -> None:
+        """Refuse what would be taken for something else; take paths, and whole numbers, of any type."""
+        for name in ("source", "map_name", "ego", "translator", "predictor", "solver", "simulator"):
+            value = getattr(self, name)
+            if isinstance(value, os.PathLike):
+                object.__setattr__(self, name, os.fspath(value))
+            elif not isinstance(value, str) and not (name == "map_name" and value is None):
+                expected = "a text (of a program in Python: scene.text(), print_program(program)) or a path"
+                raise InputError(f"{name} is no text", found=repr(value), expected=expected)
+        for name, words in _WORDS.items():
+            value = getattr(self, name)
+            if value not in words:
+                raise InputError(f"there is no such {name}", found=repr(value), expected=", ".join(map(repr, words)))
+        for name, (kind, least, most) in _RANGES.items():
+            value = getattr(self, name)
+            fits = isinstance(value, kind) and least <= float(value) <= most
+            if not fits:
+                expected = f"{'a whole number' if kind is Integral else 'a number'} from {least:g} to {most:g}"
+                raise InputError(f"{name} is out of range", found=repr(value), expected=expected)
+            object.__setattr__(self, name, int(value) if kind is Integral else float(value))
+        if self.out is not None:
+            object.__setattr__(self, "out", Path(self.out))
 
 
 @dataclass(frozen=True, slots=True)

@@ -55,12 +55,14 @@ _NAME_SUFFIXES: tuple[tuple[str, str], ...] = (
     ("_mps2", "m/s^2"),
     ("_kmph", "km/h"),
     ("_kph", "km/h"),
+    ("_kmh", "km/h"),
     ("_mph", "mph"),
     ("_mps", "m/s"),
     ("_ft", "ft"),
     ("_m", "m"),
     ("_s", "s"),
 )
+UNIT_SUFFIXES = "_m, _s, _mps or _mpss (or _ft, _mph, _kmph)"  # as a message tells them
 
 # Of a number as it is written, above and below the line of a fraction, and of its value in SI units. No scenario has
 # more, and exact arithmetic stays quick.

@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 from sentences import IMPOSSIBLE, SENTENCE
 
+from scenarios import BRAKES
 from scenewright.solve.proofs.refuters import SOLVERS
 
 Command = Callable[..., Any]
@@ -26,6 +27,13 @@ def test_one_line_for_each(command: Command, folder: Path) -> None:
     assert good.split() == ["feasible", "good.txt"]
     assert bad.startswith("infeasible  bad.txt  c")
     assert command("check", "good.txt", "good.txt").exit_code == 0
+
+
+def test_what_was_assumed_is_told(command: Command, folder: Path) -> None:
+    Path("idle.scene").write_text("parameters:\n- idle_m = 3\n" + BRAKES.text, encoding="utf-8")
+    result = command("check", "idle.scene")
+    assert result.exit_code == 0
+    assert "assumed: no constraint speaks of the parameter idle_m" in result.stdout
 
 
 def test_a_wrong_file_does_not_keep_the_others_from_their_turn(command: Command, folder: Path) -> None:

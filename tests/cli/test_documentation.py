@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 import shlex
 import shutil
@@ -120,6 +121,23 @@ def test_example_simulator_keeps_the_contract() -> None:
     names: dict[str, Any] = {}
     exec(f"{example}\n{test}", names)
     names["test_it_keeps_the_contract"]()
+
+
+@pytest.mark.usefixtures("in_one_process")
+def test_what_is_run_in_python_runs(folder: Path) -> None:
+    shutil.copytree(ROOT / "examples", folder / "examples")
+    names: dict[str, Any] = {"__name__": "documentation"}
+    for page in ("program", "development", "run-directory"):
+        for shown in blocks(ROOT / "docs" / f"{page}.md", "python"):
+            exec(shown.replace("runs/demo", "runs/dawdler"), names)
+    assert names["hero"]
+    assert names["run"]((20, "idm", 0)).status == "success"
+
+
+def test_every_key_of_the_manifest_is_in_the_page(folder: Path, command: Command) -> None:
+    assert command("run", str(ROOT / "examples" / "demo.txt"), "--quiet", "--takes", "1", "--out", "run").exit_code == 0
+    page = (ROOT / "docs" / "run-directory.md").read_text(encoding="utf-8")
+    assert [key for key in json.loads(Path("run/manifest.json").read_text()) if f"`{key}`" not in page] == []
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)

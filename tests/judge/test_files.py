@@ -17,7 +17,7 @@ from scenewright.errors import InputError, OutputError, ProgramError
 from scenewright.judge.files import judge_run_directory, read_case, write_verdict
 from scenewright.judge.judgement import judge
 from scenewright.judge.tolerance import LOOSE, TIGHT
-from scenewright.trace.files import write_trace
+from scenewright.trace.files import read_trace, write_trace
 
 
 def road(number: int, x_m: float, y_m: float, heading_rad: float) -> str:
@@ -107,6 +107,12 @@ def test_missing_file_is_named(tmp_path: Path, name: str) -> None:
     with pytest.raises(InputError) as caught:
         judge_run_directory(run)
     assert name.split(".", maxsplit=1)[0] in str(caught.value)
+
+
+def test_paths_may_be_texts(tmp_path: Path) -> None:
+    run = write_run(tmp_path / "run", BRAKES)
+    assert judge_run_directory(str(run)).as_dict() == judge_run_directory(run).as_dict()
+    assert list(read_trace(str(run / "trace.parquet")).actors) == list(read_trace(run / "trace.parquet").actors)
 
 
 def test_missing_directory(tmp_path: Path) -> None:
@@ -217,3 +223,11 @@ def test_program_that_does_not_parse_and_actor_without_a_trace(tmp_path: Path) -
 def test_unwritable_verdict(tmp_path: Path) -> None:
     with pytest.raises(OutputError):
         write_verdict(judge(BRAKES.case()), tmp_path / "nowhere" / "verdict.json")
+
+
+@pytest.mark.parametrize("line", ["A1x(t1) <= 500 s", "A1x(t0) >= A1v(t0)", "A1v(t9) <= 3"])
+def test_a_program_that_makes_no_sense_is_not_judged(tmp_path: Path, line: str) -> None:
+    run = write_run(tmp_path / "run", BRAKES)
+    (run / "program.scene").write_text(f"{BRAKES.text}{line}\n", encoding="utf-8")
+    with pytest.raises(ProgramError, match=r"two different things|no knot"):
+        judge_run_directory(run)

@@ -159,3 +159,26 @@ def test_one_end_of_a_range_is_enough() -> None:
     (parameter,) = scene.program().parameters
     assert (parameter.low, parameter.high) == (Fraction(10), Fraction(1000) / Fraction("0.3048"))
     survives(scene.program())
+
+
+def test_what_a_manner_said_before_stays() -> None:
+    scene, _, _ = pair()
+    scene.manner(settled_s=1)
+    scene.manner(stands_s=2)
+    manner = scene.program().manner
+    assert (manner.settled_s, manner.stands_s) == (1, 2)
+
+
+def test_what_is_no_vehicle_sketch_or_list_is_told() -> None:
+    scene, ego, _ = pair()
+    for measure in (ego.gap_to, ego.freespace, ego.ttc, ego.headway):
+        with pytest.raises(TypeError, match="'hero' is not a vehicle"):
+            measure("hero", "t1")  # type: ignore[arg-type]
+    with pytest.raises(TypeError, match="is not a vehicle"):
+        stop_line.of("hero")  # type: ignore[arg-type]
+    with pytest.raises(ProgramError, match="not a motion sketch"):
+        scene.actor("other", "W", sketch=["t0", 3, "t1"])  # type: ignore[arg-type]
+    with pytest.raises(ProgramError, match="a list of ids"):
+        scene.actor("other", lanes="1.0.-1", sketch="t0 go t1")
+    with pytest.raises(ProgramError, match="gap_m is out of range"):
+        scene.parameter("gap_m", 50, low=10, high=40)

@@ -32,6 +32,8 @@ FAULTS = [
     ("A0(t1) == A4(t1)", 18, "there is no actor 4", "A4", "A0 (ego), A1 (hero)"),
     ("A0x(t0) == A5.stop_line", 19, "there is no actor 5", "A5", "A0 (ego), A1 (hero)"),
     ("A0x(t0) == A0.conflict_point(A6)", 19, "there is no actor 6", "A6", "A0 (ego), A1 (hero)"),
+    ("A0x(t0) == A0.conflict_point(A0)", 19, "of an actor with itself", "A0.conflict_point(A0)", "A0.conflict_point"),
+    ("A0x(t0) == A0.stop_line(A1)", 19, "stop_line is shared with nobody", "A0.stop_line(A1)", "A0.stop_line"),
     ("A0x(t0) == A1v(t0)", 8, "two different things are compared", "A0x(t0) is a length (m)", "the same kind"),
     ("A0x(t0) == ego_speed_mps", 8, "two different things", "ego_speed_mps is a speed (m/s)", "the same kind"),
     ("A0(t1) < A0x(t1)", 8, "two different things", "A0(t1) is a time (s)", "the same kind"),
@@ -71,8 +73,9 @@ def test_faults_of_constraints(line: str, column: int, words: str, found: str | 
 # Text to replace, by what; place and words of the message.
 FRAMES = [
     ("Actor 1 (hero)", "Actor 0 (hero)", "5:1", "two actors have the same number"),
-    ("Actor 1 (hero)", "Actor 1 (ego)", "1:1", "two actors are called ego"),
+    ("Actor 1 (hero)", "Actor 1 (ego)", "5:1", "two actors are called ego"),
     ("Actor 0 (ego)", "Actor 2 (ego)", None, "there is no ego"),
+    ("[t0, go, t1, go, t2]", "[t0, go, t1, acc, t2]", "1:1", "is told what to do, and nobody controls it"),
     ("[t0, go, t1, go, t2]", "[t0, go, dec, go, t2]", "1:1", "a knot of ego (A0) is called like a piece"),
 ]
 
@@ -91,7 +94,8 @@ def test_faults_of_actors(old: str, new: str, place: str | None, words: str) -> 
     [
         ("- length = 3", "2:3", "parameter length has no unit"),
         ("- a_m in [5, 3]", "2:3", "the range of a_m is empty"),
-        ("- a_m = 3\n- a_m = 4", "2:3", "parameter a_m is declared twice"),
+        ("- a_m = 50 in [10, 40]", "2:3", "parameter a_m is out of range"),
+        ("- a_m = 3\n- a_m = 4", "3:3", "parameter a_m is declared twice"),
     ],
 )
 def test_faults_of_parameters(lines: str, place: str, words: str) -> None:
@@ -107,6 +111,15 @@ def test_two_constraints_of_one_name() -> None:
     with pytest.raises(ProgramError, match="two constraints are called fault") as caught:
         check_program(parse_program(text, "x.scene"), text, "x.scene")
     assert str(caught.value.place) == f"x.scene:{LINE + 1}:8"
+
+
+@pytest.mark.parametrize("source", ["@3..2", "@2..2", "@0..6"])
+def test_words_that_are_not_in_the_description(source: str) -> None:
+    text = 'description: "brake"\n' + FRAME.format(f"A1v(t0) == 5 {source}")
+    with pytest.raises(ProgramError, match="the words of fault are not in the description"):
+        check_program(parse_program(text, "x.scene"), text, "x.scene")
+    text = text.replace(source, "@0..5")
+    check_program(parse_program(text, "x.scene"), text, "x.scene")
 
 
 def test_nobody_but_the_ego() -> None:

@@ -121,6 +121,12 @@ def test_a_file_may_end_without_a_line_break_and_use_foreign_ones() -> None:
     assert parse_program(text + "\n\n  # the end") == parse_program(text)
 
 
+def test_two_lists_of_parameters_are_one() -> None:
+    text = example("W", "t0, go, t1", "A0v(t0) == slow_mps")
+    program = parse_program("parameters:\n- slow_mps = 3\nparameters:\n- fast_mps = 9\n" + text)
+    assert {each.name: each.value for each in program.parameters} == {"slow_mps": 3, "fast_mps": 9}
+
+
 @pytest.mark.parametrize("found", ["nothing", "garbage", "no folder"])
 def test_what_was_built_before_is_a_matter_of_time_only(
     found: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch

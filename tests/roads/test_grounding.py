@@ -209,3 +209,30 @@ def test_decelerations_may_be_given_with_either_sign(formula: str, given: int, r
     assert scene.parameters == {"rate_mpss": read}
     assert bool(scene.notes) is noted
     assert all("rate_mpss is a deceleration" in note for note in scene.notes)
+
+
+@pytest.mark.parametrize(
+    ("formula", "declared", "read"),
+    [
+        ("A1a(dec) == rate_mpss", "in [2, 4]", (-4, -2)),
+        ("A1a(dec) == rate_mpss", "in [-4, -2]", (-4, -2)),
+        ("A1a(dec) == -rate_mpss", "in [-4, -2]", (2, 4)),
+        ("A1a(dec) == -rate_mpss", "= -3 in [-4, -2]", (2, 4)),
+        ("A1a(dec) == -rate_mpss", "in [-1, 4]", (-1, 4)),
+        ("A1a(dec) == rate_mpss", "in [0, 3]", (-3, 0)),
+        ("A1a(dec) == rate_mpss", "in [3, 3]", (-3, -3)),
+    ],
+)
+def test_the_range_of_a_deceleration_may_have_either_sign(formula: str, declared: str, read: tuple[int, int]) -> None:
+    text = f"parameters:\n- rate_mpss {declared}\n" + example("E, N", "t0, go, t1, dec, t2", formula)
+    scene = scene_of(text)
+    (rate,) = scene.program.parameters
+    assert (rate.low, rate.high) == read
+    assert bool(scene.notes) is ((rate.low, rate.high) != parse_program(text).parameters[0].bounds())
+    if rate.value is not None:
+        assert scene.parameters == {"rate_mpss": rate.value}
+
+
+def test_a_parameter_without_effect_is_noted() -> None:
+    text = "parameters:\n- nearby_m = 3\n" + example("E, N", "t0, go, t1", "A1x(t1) == conflict_point - near_m")
+    assert scene_of(text).notes == ("no constraint speaks of the parameter nearby_m: it has no effect",)

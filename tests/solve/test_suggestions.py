@@ -9,7 +9,7 @@ from functools import partial
 
 import pytest
 
-from scenarios import INFEASIBLE, TOO_HARD, Example, feasibility, limits_of
+from scenarios import BRAKES, INFEASIBLE, TOO_HARD, Example, feasibility, limits_of
 from scenewright.orchestrate import orchestrate, set_up
 from scenewright.program.printer import print_expression, print_program
 from scenewright.program.resolve import resolve
@@ -150,6 +150,15 @@ def test_bounds_of_a_stretch_of_time_have_ways_out_in_their_own_unit(line: str, 
     found = [each for each in suggest(question, {"probe"}) if each.what.endswith(probe) and each.unit == unit]
     assert len(found) == 1
     assert found[0].nearest == pytest.approx(nearest, abs=0.3)
+
+
+def test_a_factor_has_no_unit() -> None:
+    text = BRAKES.text + "c8: A1v(t1) == 3 * A0v(t1)\nc9: A0v(t1) == 9\nc10: A1v(t1) <= 3 m/s * 2\n"
+    scene = ground(parse_program(text), T)
+    told = {lever.what.split(" in ")[0]: lever.unit for lever in suggestions.levers(scene, {"c8", "c9", "c10"})}
+    assert told == {"3": "m/s", "9": "m/s", "2": ""}
+    assert [lever.unit for lever in suggestions.levers(scene, {"c8"})] == [""]
+    assert str(Suggestion("3 in A1v(t1) == 3 * A0v(t1)", 3.0, 1.5, "")).endswith(": 1.5 instead of 3")
 
 
 CLOSE = """Actor 0 (ego):

@@ -70,6 +70,14 @@ def test_constraints_are_clauses_that_say_when() -> None:
     ]
 
 
+def test_a_moment_by_the_clock_is_told_with_each_clause() -> None:
+    told = told_constraints(program(f"{PROGRAM.rstrip()}\nA1x(2.5) == stop_line - 3\nA1v(2.5) <= 9\n"))
+    assert list(told.values())[-2:] == [
+        "the hero is 3 m before the stop line 2.5 s after the start",
+        "the hero drives at a speed of at most 9 m/s 2.5 s after the start",
+    ]
+
+
 def test_what_has_no_words_is_told_as_code_below_the_rest() -> None:
     lines = lines_of_program(program())
     assert [line.sentence for line in lines[-1:]] == ["Besides: A1v(t1) * A0v(t0) == 12."]

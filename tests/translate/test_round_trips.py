@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from dataclasses import fields
 
+import pytest
 from random_stories import random_story, told_stories
 
 from forms import FORMS
-from scenarios import EXAMPLE_TABLE
+from scenarios import BRAKES, EXAMPLE_TABLE
 from scenewright.errors import ProgramError, TranslationError
 from scenewright.program.printer import print_program
 from scenewright.program.text import parse_program
@@ -77,3 +78,18 @@ def test_what_a_program_says_is_told_and_read_back() -> None:
         assert compile_story(arranged(read("\n".join(tell(story))))) == compile_story(story)
         told += 1
     assert told >= 150
+
+
+@pytest.mark.parametrize(
+    "line",
+    [
+        "gap(A0, A1, A1(t1)) > 0",
+        "gap(A1, A0, A1(t2)) > 0",
+        "gap(A1, A0, 2.5) > 0",
+        "always[0, 3] (gap(A0, A1) > 0)",
+        "never[0, 3] (gap(A0, A1) > 0 or A0v > 9)",
+    ],
+)
+def test_who_is_behind_whom_is_read_back_wherever_it_is_told(line: str) -> None:
+    story = decompile(parse_program(f"{BRAKES.text}{line}\n"))
+    assert compile_story(arranged(read("\n".join(tell(story))))) == compile_story(story)

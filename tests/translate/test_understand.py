@@ -191,3 +191,9 @@ def test_answers_from_a_file(tmp_path: Path) -> None:
         path.write_text(wrong, encoding="utf-8")
         with pytest.raises(InputError):
             read_answers(path)
+
+
+def test_who_drives_alone_is_told_so_in_plain_words() -> None:
+    with pytest.raises(TranslationError, match="nobody but the ego") as caught:
+        understand("The ego drives west.")
+    assert "Actor" not in str(caught.value)

@@ -17,7 +17,7 @@ from scenewright.cli.console import print_json, stdout
 from scenewright.cli.directories import Claim, claim, next_free, slug
 from scenewright.cli.faults import error_data, tell, told
 from scenewright.cli.options import AsJson, Solver
-from scenewright.cli.running import carry_out, data_without_a_run, tell_map_notes, tell_no_plan
+from scenewright.cli.running import carry_out, data_without_a_run, tell_no_plan, tell_notes
 from scenewright.cli.translators import Asked, with_asked
 from scenewright.errors import ScenewrightError
 
@@ -76,7 +76,7 @@ def _check_one(asked: Asked, out: Path | None, solver: str, as_json: bool) -> in
     if result.run_directory is not None:
         console.print(f"page  {result.run_directory / 'index.html'}", soft_wrap=True)
     tell_no_plan(console, result)
-    tell_map_notes(console, result)
+    tell_notes(console, result)
     return status
 
 

@@ -16,7 +16,7 @@ import typer
 from scenewright.cli.console import print_json, stderr, stdout
 from scenewright.cli.faults import told
 from scenewright.cli.options import SOURCE, AsJson, MapName, Translator
-from scenewright.cli.running import carry_out, data_without_a_run, tell_map_notes, tell_no_plan
+from scenewright.cli.running import carry_out, data_without_a_run, tell_no_plan, tell_notes
 from scenewright.cli.translators import Asked, with_asked, with_translator
 from scenewright.errors import InputError, OutputError, Place
 from scenewright.translate.model.exchange import TranslatorSettings
@@ -112,7 +112,7 @@ def solve(asked: Asked, out: PlanFile = None, as_json: AsJson = False) -> None:
             stdout().print(tables.knots(result.scene, plan))
         if not as_json:
             tell_no_plan(stderr(), result)
-            tell_map_notes(stderr(), result)
+            tell_notes(stderr(), result)
         raise typer.Exit(status)
 
 

@@ -200,7 +200,7 @@ def _tell(request: Request, result: Result, fail_on: FailOn | None, as_json: boo
         report_run(stdout(), request, result)
     if result.run is None and not as_json:
         tell_no_plan(stderr(), result)
-        tell_map_notes(stderr(), result)
+        tell_notes(stderr(), result)
     if fault is not None:
         tell(fault)
     if result.status == "interrupted":
@@ -259,10 +259,11 @@ def tell_no_plan(console: Console, result: Result) -> None:
         console.print("`scenewright check` tells whether it can happen.", soft_wrap=True)
 
 
-def tell_map_notes(console: Console, result: Result) -> None:
-    """Say what is not on the map as its file has it: it may be why nothing was driven."""
-    for note in result.scene.road_map.notes:
-        console.print(f"map: {note}", soft_wrap=True, markup=False)
+def tell_notes(console: Console, result: Result) -> None:
+    """Say what was assumed, and what is not on the map as its file has it: it may be why nothing was driven."""
+    for what, notes in (("assumed", result.scene.notes), ("map", result.scene.road_map.notes)):
+        for note in notes:
+            console.print(f"{what}: {note}", soft_wrap=True, markup=False)
 
 
 def tried(result: Result) -> str | None:

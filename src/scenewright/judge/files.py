@@ -19,6 +19,7 @@ from scenewright.errors import InputError, MapError, OutputError, Place
 from scenewright.judge.case import Box, Case, Limits, PathLike
 from scenewright.judge.judgement import judge
 from scenewright.judge.verdict import Cause, Verdict
+from scenewright.program.check import check_program
 from scenewright.program.text import parse_program
 from scenewright.program.types import Actor, Program
 from scenewright.roads.model import RoadMap
@@ -98,7 +99,7 @@ class ParametersModel(RootModel[dict[str, ParameterModel]]):
 _Any = TypeVar("_Any", bound=BaseModel)
 
 
-def judge_run_directory(directory: Path) -> Verdict:
+def judge_run_directory(directory: Path | str) -> Verdict:
     """Judge a run from the files it left.
 
     Parameters
@@ -125,8 +126,9 @@ def cause_told(directory: Path) -> Cause | None:
         return None
 
 
-def read_case(directory: Path) -> Case:
+def read_case(directory: Path | str) -> Case:
     """Read what a verdict may rest on from a run directory; raises as `judge_run_directory` does."""
+    directory = Path(directory)
     if not directory.is_dir():
         raise InputError("there is no run directory here", place=Place(str(directory)))
     manifest = _read_model(directory / "manifest.json", ManifestModel)
@@ -137,7 +139,9 @@ def read_case(directory: Path) -> Case:
             found=str(manifest.schema_version),
             expected=str(SCHEMA_VERSION),
         )
-    program = parse_program(_read_text(directory / "program.scene"), "program.scene")
+    text = _read_text(directory / "program.scene")
+    program = parse_program(text, "program.scene")
+    check_program(program, text, "program.scene")
     paths, unmapped = _paths(manifest, program.actors)
     parameters = _si_values(_read_model(directory / "params.json", ParametersModel), program, directory)
     return Case(

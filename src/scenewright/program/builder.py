@@ -59,7 +59,7 @@ from scenewright.program.types import (
     RouteSpec,
     Sketch,
 )
-from scenewright.units import unit_of_name
+from scenewright.units import UNIT_SUFFIXES, unit_of_name
 
 __all__ = [
     "Condition",
@@ -167,11 +167,11 @@ class Scenario:
         Raises
         ------
         ProgramError
-            For a name without a unit, a name taken, or an empty range.
+            For a name without a unit, a name taken, an empty range, or a value out of it.
         """
         if unit_of_name(name) is None or not _NAME.fullmatch(name):
             raise ProgramError(
-                f"parameter {name} has no unit", found=name, expected="a name that ends in _m, _s, _mps or _mpss"
+                f"parameter {name} has no unit", found=name, expected=f"a name that ends in {UNIT_SUFFIXES}"
             )
         if any(parameter.name == name for parameter in self._parameters):
             raise ProgramError(f"parameter {name} is declared twice", found=name)
@@ -179,20 +179,27 @@ class Scenario:
         least, most = parameter.bounds()
         if least > most:
             raise ProgramError(f"the range of {name} is empty", found=f"[{float(least):g}, {float(most):g}]")
+        if value is not None and not least <= exact(value) <= most:
+            expected = f"{float(least):g} to {float(most):g}"
+            raise ProgramError(f"parameter {name} is out of range", found=str(value), expected=expected)
         if low is not None or high is not None:
             parameter = replace(parameter, low=least, high=most)  # the text form has both ends or none
         self._parameters.append(parameter)
         return Computed(ParameterRef(name))
 
     def manner(self, **numbers: Figure) -> None:
-        """Say what "begins", "settled" and "stands" mean here, in SI units; the rest is as usual (see `Manner`).
+        """Say what "begins", "settled" and "stands" mean here, in SI units (see `Manner`).
+
+        What was said before stays; what is never said is as usual.
 
         Raises
         ------
         ProgramError
             For a name that a manner does not have, or a number out of its range.
         """
-        self._manner = manner_of((name, exact(value), None) for name, value in numbers.items())
+        said = {name: exact(value) for name, value in numbers.items()}
+        manner_of((name, value, None) for name, value in said.items())
+        self._manner = replace(self._manner, **said)
 
     def require(self, condition: Condition, id: str | None = None, words: str | None = None) -> str:
         """Require `condition` and return its id.
@@ -283,6 +290,8 @@ def _route(headings: tuple[str, ...], lanes: Sequence[str] | None, route: RouteS
                 "this is not a heading", found=", ".join(headings), expected="N, E, S or W, each by itself"
             )
         ways.append(HeadingsRoute(headings))
+    if isinstance(lanes, str):
+        raise ProgramError("lanes are a list of ids", found=lanes, expected=f"a list, such as [{lanes!r}]")
     if lanes:
         ways.append(LanesRoute(tuple(lanes)))
     if len(ways) != 1:
@@ -295,14 +304,14 @@ def _route(headings: tuple[str, ...], lanes: Sequence[str] | None, route: RouteS
 def _sketch(sketch: str | Sketch) -> Sketch:
     if isinstance(sketch, Sketch):
         return sketch
-    names = sketch.strip("[] ").replace(",", " ").split()
+    names = str(sketch).strip("[] ").replace(",", " ").split()
     knots, pieces = tuple(names[0::2]), names[1::2]
     kinds = {str(kind) for kind in PieceKind}
     shaped = len(names) % 2 == 1 and set(pieces) <= kinds and len(set(knots)) == len(knots)
     if not shaped or any(knot.rstrip("0123456789") in kinds or not _NAME.fullmatch(knot) for knot in knots):
         raise ProgramError(
             "this is not a motion sketch",
-            found=sketch,
+            found=str(sketch),
             expected="knots and pieces (go, acc, dec, stop) in turn, such as 't0 go t1 dec t2'",
         )
     return Sketch(knots, tuple(PieceKind(piece) for piece in pieces))

@@ -17,7 +17,7 @@ from scenewright.program.limits import check_depth, check_size
 from scenewright.program.magnitudes import NoNumberError, Values, check_numbers, magnitude
 from scenewright.program.printer import print_expression
 from scenewright.program.types import EGO, Actor, Constraint, PieceKind, Program
-from scenewright.units import format_fraction, is_size_of_a_scenario, size_of_a_scenario, unit_of_name
+from scenewright.units import UNIT_SUFFIXES, format_fraction, is_size_of_a_scenario, size_of_a_scenario, unit_of_name
 
 # A dimension as exponents of metre and second; None is a bare number, which goes with anything.
 Powers = tuple[int, int] | None
@@ -72,7 +72,18 @@ class _Checker:
             if constraint.id in seen:
                 raise self._error(f"two constraints are called {constraint.id}", constraint.span, fix="rename one")
             seen.add(constraint.id)
+            self._check_source(constraint)
             self.check_constraint(constraint)
+
+    def _check_source(self, constraint: Constraint) -> None:
+        source, words = constraint.source, self.program.description
+        if source is not None and words is not None and not 0 <= source.start < source.end <= len(words):
+            raise self._error(
+                f"the words of {constraint.id} are not in the description",
+                constraint.span,
+                found=f"@{source.start}..{source.end}",
+                expected=f"a stretch of its {len(words)} characters, such as @0..{len(words)}",
+            )
 
     def _error(
         self,
@@ -93,9 +104,18 @@ class _Checker:
             raise self._error("there is no ego", None, expected="an 'Actor 0', the vehicle under test")
         if len(self.actors) < 2:
             raise self._error("there is nobody but the ego", None, expected="an 'Actor 1' that interacts with it")
+        ego = self.actors[EGO]
+        if any(piece is not PieceKind.GO for piece in ego.sketch.pieces):
+            raise self._error(
+                f"{ego.name} (A{EGO}) is told what to do, and nobody controls it",
+                ego.span,
+                found=", ".join(ego.sketch.pieces),
+                expected="go for each of its pieces: the policy under test drives it",
+                fix=f"ask for it in a constraint, such as A{EGO}a({ego.sketch.knots[0]}) <= -2",
+            )
         names = [actor.name for actor in self.program.actors]
-        for actor in self.program.actors:
-            if names.count(actor.name) > 1:
+        for number, actor in enumerate(self.program.actors):
+            if actor.name in names[:number]:
                 raise self._error(f"two actors are called {actor.name}", actor.span, fix="give them different names")
             for knot in actor.sketch.knots:
                 if knot.rstrip("0123456789") in set(PieceKind):
@@ -108,15 +128,15 @@ class _Checker:
 
     def _check_parameters(self) -> None:
         names = [parameter.name for parameter in self.program.parameters]
-        for parameter in self.program.parameters:
-            if names.count(parameter.name) > 1:
+        for number, parameter in enumerate(self.program.parameters):
+            if parameter.name in names[:number]:
                 raise self._error(f"parameter {parameter.name} is declared twice", parameter.span, fix="remove one")
             if unit_of_name(parameter.name) is None:
                 raise self._error(
                     f"parameter {parameter.name} has no unit",
                     parameter.span,
                     found=parameter.name,
-                    expected="a name that ends in _m, _s, _mps or _mpss (or _ft, _mph, _kmph)",
+                    expected=f"a name that ends in {UNIT_SUFFIXES}",
                 )
             low, high = parameter.bounds()
             for value in (parameter.value, low, high):
@@ -128,6 +148,13 @@ class _Checker:
                     )
             if low > high:
                 raise self._error(f"the range of {parameter.name} is empty", parameter.span, found=f"[{low}, {high}]")
+            if parameter.value is not None and not low <= parameter.value <= high:
+                raise self._error(
+                    f"parameter {parameter.name} is out of range",
+                    parameter.span,
+                    found=f"{float(parameter.value):g} {parameter.unit.symbol}",
+                    expected=f"{float(low):g} to {float(high):g} {parameter.unit.symbol}",
+                )
 
     def check_constraint(self, constraint: Constraint) -> None:
         formula = constraint.formula
@@ -146,10 +173,17 @@ class _Checker:
                     raise self._error(
                         f"'{name}' is not a landmark", node.span, found=name, expected=", ".join(ex.LANDMARKS)
                     )
-                case ex.Landmark(actor=actor, other=other):
+                case ex.Landmark(name=name, actor=actor, other=other):
                     for named in (actor, other):
                         if named is not None:
                             self._actor(named, node.span)
+                    if other is not None and (other == actor or name not in ex.CONFLICT_LANDMARKS):
+                        raise self._error(
+                            f"{name} is shared with nobody" if other != actor else f"{name} of an actor with itself",
+                            node.span,
+                            found=print_expression(node),
+                            expected=f"another actor's, or the place alone: A{actor}.{name}",
+                        )
                 case _:
                     pass
         self._check_formula(formula, inside_temporal=False)

@@ -155,7 +155,7 @@ class Place(Quantity):
     def of(self, actor: Vehicle, other: Vehicle | None = None) -> Place:
         """Return this landmark on the route of `actor`; `other` tells whom a conflict point is shared with."""
         assert isinstance(self.term, Landmark)
-        return Place(Landmark(self.term.name, actor.id, None if other is None else other.id))
+        return Place(Landmark(self.term.name, _id_of(actor), None if other is None else _id_of(other)))
 
 
 Operand = Quantity | float | Fraction | Decimal
@@ -228,19 +228,19 @@ class Vehicle:
 
     def gap_to(self, other: Vehicle, at: Moment = None) -> Quantity:
         """Return how far `other` is ahead (m), between reference points, along the lane that both share."""
-        return self._derived("gap", other.id, at)
+        return self._derived("gap", _id_of(other), at)
 
     def freespace(self, other: Vehicle, at: Moment = None) -> Quantity:
         """Return what lies between the bodies (m), with `other` ahead, along the lane that both share."""
-        return self._derived("freespace", other.id, at)
+        return self._derived("freespace", _id_of(other), at)
 
     def ttc(self, other: Vehicle, at: Moment = None) -> Quantity:
         """Return the time to collision with `other` ahead: what lies between the bodies, over the closing speed (s)."""
-        return self._derived("ttc", other.id, at)
+        return self._derived("ttc", _id_of(other), at)
 
     def headway(self, other: Vehicle, at: Moment = None) -> Quantity:
         """Return the headway to `other` ahead: what lies between the bodies, over own speed (s)."""
-        return self._derived("headway", other.id, at)
+        return self._derived("headway", _id_of(other), at)
 
     def _state(self, order: Order, at: Moment) -> Quantity:
         return Computed(State(self.id, order, self._moment(at)))
@@ -277,6 +277,12 @@ class Vehicle:
             raise ProgramError(
                 f"{self.actor.name} has no {kind} {name}", found=name, expected=", ".join(there_are) or "none at all"
             )
+
+
+def _id_of(vehicle: object) -> int:
+    if not isinstance(vehicle, Vehicle):
+        raise TypeError(f"{vehicle!r} is not a vehicle, as scene.ego(...) and scene.actor(...) return them")
+    return vehicle.id
 
 
 def always(start: Operand, end: Operand, body: Condition) -> Condition:

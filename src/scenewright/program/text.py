@@ -10,6 +10,7 @@ import os
 import sys
 from contextlib import suppress
 from dataclasses import replace
+from difflib import get_close_matches
 from fractions import Fraction
 from functools import lru_cache
 from importlib.resources import files
@@ -57,9 +58,11 @@ from scenewright.program.types import (
     Program,
     Sketch,
 )
-from scenewright.units import UNITS, Unit, unit_of_name
+from scenewright.units import UNIT_SUFFIXES, UNITS, Unit, unit_of_name
 
 __all__ = ["JUST_BEFORE_M", "negate", "parse_program"]
+
+_ARTICLES = {"length": "a length", "time": "a time", "speed": "a speed", "acceleration": "an acceleration"}
 
 
 def parse_program(text: str, name: str = "program") -> Program:
@@ -137,16 +140,16 @@ class _Builder(Transformer[Token, Any]):
         return Span(meta.start_pos, meta.end_pos)
 
     # -- headers ----------------------------------------------------------------------------------------------------
-    def scenario(self, meta: Meta, items: list[Any]) -> tuple[str, str]:
-        return "name", _unquote(items[0])
+    def scenario(self, meta: Meta, items: list[Any]) -> tuple[str, str, Span]:
+        return "name", _unquote(items[0]), self._span(meta)
 
-    def map(self, meta: Meta, items: list[Any]) -> tuple[str, str]:
+    def map(self, meta: Meta, items: list[Any]) -> tuple[str, str, Span]:
         token = items[0]
-        return "map_name", _unquote(token) if token.type == "STRING" else str(token)
+        return "map_name", _unquote(token) if token.type == "STRING" else str(token), self._span(meta)
 
-    def description(self, meta: Meta, items: list[Any]) -> tuple[str, str]:
+    def description(self, meta: Meta, items: list[Any]) -> tuple[str, str, Span]:
         quoted = next(item for item in items if item is not None and item.type == "STRING")
-        return "description", _unquote(quoted)
+        return "description", _unquote(quoted), self._span(meta)
 
     def parameters(self, meta: Meta, items: list[Any]) -> tuple[str, list[Parameter]]:
         return "parameters", [item for item in items if isinstance(item, Parameter)]
@@ -174,7 +177,7 @@ class _Builder(Transformer[Token, Any]):
         unit = UNITS[symbol]
         if unit.dimension != own.dimension:
             raise ProgramError(
-                f"{what} is a {own.dimension}, its value is a {unit.dimension}",
+                f"{what} is {_ARTICLES[own.dimension]}, its value is {_ARTICLES[unit.dimension]}",
                 place=self._place(span),
                 found=symbol,
                 expected=f"a unit of {own.dimension}, such as {own.symbol}",
@@ -311,8 +314,8 @@ class _Builder(Transformer[Token, Any]):
         return Number(value * UNITS[unit].si_factor, self._span(meta), UNITS[unit].dimension)
 
     def instant(self, meta: Meta, items: list[Any]) -> Number:
-        value, unit = self._ratio(items[0], items[1]), items[2]
-        return Number(value * UNITS[unit].si_factor if unit else value, self._span(meta))
+        span, number = self._span(meta), (self._ratio(items[0], items[1]), items[2])
+        return Number(self._in_unit(UNITS["s"], "a moment", number, span), span)
 
     def state(self, meta: Meta, items: list[Any]) -> State:
         token, at = items
@@ -366,18 +369,19 @@ class _Builder(Transformer[Token, Any]):
         if name in LANDMARKS:
             return Landmark(name, span=span)
         if unit_of_name(name) is None:
+            near = get_close_matches(name.lower(), LANDMARKS, n=1)
             raise ProgramError(
                 f"'{name}' is neither a landmark nor a parameter",
                 place=self._place(span),
                 found=name,
                 expected=f"a landmark ({', '.join(LANDMARKS)}) or a parameter whose name ends in its unit",
-                fix="end the name in _m, _s, _mps or _mpss if it is a parameter",
+                fix=f"did you mean {near[0]}?" if near else f"end the name in {UNIT_SUFFIXES} if it is a parameter",
             )
         return ParameterRef(name, span)
 
     # -- the whole --------------------------------------------------------------------------------------------------
     def start(self, meta: Meta, items: list[Any]) -> Program:
-        fields: dict[str, Any] = {"name": self._name, "map_name": DEFAULT_MAP}
+        given: dict[str, Any] = {}
         declared: list[Parameter] = []
         rows: list[tuple[Any, ...]] = []
         numbers: list[tuple[str, Fraction, Place]] = []
@@ -386,13 +390,16 @@ class _Builder(Transformer[Token, Any]):
             if isinstance(item, Actor):
                 actors.append(item)
             elif isinstance(item, tuple) and item[0] == "parameters":
-                declared = item[1]
+                declared += item[1]
             elif isinstance(item, tuple) and item[0] == "manner":
                 numbers += item[1]
             elif isinstance(item, tuple) and item[0] == "constraints":
                 rows = item[1]
             elif isinstance(item, tuple):
-                fields[item[0]] = item[1]
+                field, value, span = item
+                if field in given:  # neither of two is to be left out in silence
+                    raise ProgramError("this is said twice", place=self._place(span), found=value, fix="remove one")
+                given[field] = value
         constraints = tuple(
             Constraint(label or f"c{index}", formula, source, span)
             for index, (label, formula, source, span) in enumerate(rows, start=1)
@@ -402,7 +409,7 @@ class _Builder(Transformer[Token, Any]):
             constraints=constraints,
             parameters=_with_used_parameters(declared, constraints),
             manner=manner_of(numbers),
-            **fields,
+            **({"name": self._name, "map_name": DEFAULT_MAP} | given),
         )
 
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from fractions import Fraction
 
@@ -118,9 +118,9 @@ def ground(program: Program, road_map: RoadMap, values: Mapping[str, float | str
     program = resolve(program)
     routes = {actor.id: _route(actor, road_map) for actor in program.actors}
     parameters = parameter_values(program, values or {})
-    parameters, notes = _signed_decelerations(program, parameters)
+    program, parameters, notes = _signed_decelerations(program, parameters)
     landmarks = {actor.id: _landmarks(program, actor, routes) for actor in program.actors}
-    scene = Scene(program, road_map, routes, landmarks, parameters, notes)
+    scene = Scene(program, road_map, routes, landmarks, parameters, (*notes, *_without_effect(program)))
     for constraint in program.constraints:
         for node in walk(constraint.formula):
             _check_node(scene, node)
@@ -162,7 +162,7 @@ def _number(name: str, value: float | str | Fraction) -> Fraction:
         if not math.isfinite(float(value)):
             raise ValueError
         return decimal_fraction(value)
-    except ValueError:
+    except (TypeError, ValueError):
         raise ParameterError(
             f"parameter {name} is not a number", found=str(value), expected="a finite number", fix=f"-p {name}=12.5"
         ) from None
@@ -221,9 +221,9 @@ def _check_node(scene: Scene, node: Node) -> None:
 
 def _signed_decelerations(
     program: Program, parameters: dict[str, Fraction]
-) -> tuple[dict[str, Fraction], tuple[str, ...]]:
+) -> tuple[Program, dict[str, Fraction], tuple[str, ...]]:
     """Give a deceleration parameter the sign that its comparison needs: people write both ``3`` and ``-3``."""
-    result, notes = dict(parameters), []
+    result, notes, declared = dict(parameters), [], {each.name: each for each in program.parameters}
     for constraint in program.constraints:
         formula = constraint.formula
         if not (isinstance(formula, Compare) and isinstance(formula.left, State) and formula.left.order == 2):
@@ -231,15 +231,29 @@ def _signed_decelerations(
         if not (isinstance(formula.left.at, PieceRef) and formula.left.at.name.startswith("dec")):
             continue
         right = formula.right
-        negated = isinstance(right, Negate)
+        sign = 1 if isinstance(right, Negate) else -1
         reference = right.operand if isinstance(right, Negate) else right
-        if isinstance(reference, ParameterRef) and reference.name in result:
-            size = abs(result[reference.name])
-            wanted = size if negated else -size
-            if wanted != result[reference.name]:
-                notes.append(f"{reference.name} is a deceleration: read as {float(wanted):g} m/s^2")
-                result[reference.name] = wanted
-    return result, tuple(notes)
+        if not isinstance(reference, ParameterRef):
+            continue
+        own = declared[reference.name]
+        low, high = own.bounds()
+        if own.low is not None and max(sign * low, sign * high) <= 0 != low + high:
+            value = None if own.value is None else -own.value
+            declared[own.name] = replace(own, value=value, low=-high, high=-low)
+            if own.name not in result:
+                read = f"{-float(high):g} to {-float(low):g} {own.unit.symbol}"
+                notes.append(f"{own.name} is a deceleration: read as {read}")
+        if reference.name in result and result[reference.name] != (wanted := sign * abs(result[reference.name])):
+            notes.append(f"{reference.name} is a deceleration: read as {float(wanted):g} m/s^2")
+            result[reference.name] = wanted
+    return replace(program, parameters=tuple(declared.values())), result, tuple(notes)
+
+
+def _without_effect(program: Program) -> list[str]:
+    """Say of parameters that no constraint speaks of that they do nothing: their name may be mistyped there."""
+    used = {node.name for each in program.constraints for node in walk(each.formula) if isinstance(node, ParameterRef)}
+    idle = [parameter.name for parameter in program.parameters if parameter.name not in used]
+    return [f"no constraint speaks of the parameter {name}: it has no effect" for name in idle]
 
 
 def _no_landmark(

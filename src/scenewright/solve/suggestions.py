@@ -10,7 +10,7 @@ from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from scenewright.program.expressions import Compare, Number, ParameterRef, Term, exchanged, walk
+from scenewright.program.expressions import Arithmetic, Compare, Number, ParameterRef, Term, exchanged, walk
 from scenewright.program.printer import print_expression
 from scenewright.program.types import Constraint, Program
 from scenewright.roads.grounding import Scene
@@ -43,7 +43,8 @@ class Suggestion:
     unit: str
 
     def __str__(self) -> str:
-        return f"{self.what}: {self.nearest:.9g} {self.unit} instead of {self.value:.4g} {self.unit}"
+        unit = f" {self.unit}" if self.unit else ""
+        return f"{self.what}: {self.nearest:.9g}{unit} instead of {self.value:.4g}{unit}"
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,15 +63,15 @@ class Lever:
 
     what: str
     value: Fraction
-    dimension: Dimension
+    dimension: Dimension | None
     name: str
     constraint: Constraint | None = None
     number: Number | None = None
 
     @property
     def unit(self) -> str:
-        """The symbol of its SI unit."""
-        return SI_SYMBOL[self.dimension]
+        """The symbol of its SI unit; empty where it has none."""
+        return SI_SYMBOL[self.dimension] if self.dimension is not None else ""
 
     def put(self, program: Program, term: Term) -> Program:
         """Return the program with `term` in place of the written number; the same one for a parameter."""
@@ -110,6 +111,7 @@ def levers(scene: Scene, constraints: Container[str]) -> Iterator[Lever]:
     for constraint in program.constraints:
         if constraint.id not in constraints:
             continue
+        multiplies = any(isinstance(node, Arithmetic) and node.operator in "*/" for node in walk(constraint.formula))
         compared = (part for part in walk(constraint.formula) if isinstance(part, Compare))
         for node, dimension in ((node, compared_dimension(part)) for part in compared for node in walk(part)):
             if isinstance(node, ParameterRef) and node.name in scene.parameters and node.name not in seen:
@@ -122,7 +124,8 @@ def levers(scene: Scene, constraints: Container[str]) -> Iterator[Lever]:
                 is_code = program.description is None  # whoever wrote the program looks for its line
                 said = print_expression(constraint.formula) if is_code else f'"{in_words(program, constraint)}"'
                 what = f"{format_fraction(node.value)} in {said}"
-                yield Lever(what, node.value, dimension, f"free_{constraint.id}", constraint, node)
+                own = node.dimension or (None if multiplies else dimension)  # a factor has none
+                yield Lever(what, node.value, own, f"free_{constraint.id}", constraint, node)
 
 
 @dataclass(slots=True)

@@ -36,7 +36,7 @@ def write_trace(trace: Trace, path: Path) -> None:
     pq.write_table(pa.table(columns), path, compression="zstd")
 
 
-def read_trace(path: Path) -> Trace:
+def read_trace(path: Path | str) -> Trace:
     """Read a trace file.
 
     Raises
@@ -47,6 +47,7 @@ def read_trace(path: Path) -> Trace:
     import pyarrow as pa
     import pyarrow.parquet as pq
 
+    path = Path(path)
     if not path.is_file():
         raise InputError(
             "there is no trace here", place=Place(str(path)), expected="a run directory with trace.parquet"

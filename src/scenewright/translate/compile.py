@@ -95,6 +95,9 @@ def refused_deed(verb: str, quote: st.Quote | None) -> TranslationError:
 
 
 def _check_known(story: st.Story) -> None:
+    if not story.heroes:
+        fix = "for example: An oncoming hero turns left."
+        raise TranslationError("there is nobody but the ego", expected="somebody else, and what they do", fix=fix)
     for actor in story.actors:
         if actor.kind not in DRIVEN:
             raise refused_kind(actor.kind, actor.quote)

@@ -19,7 +19,7 @@ from scenewright.program.types import Constraint, Program
 from scenewright.translate import story as st
 from scenewright.translate.compile import clause_around
 from scenewright.translate.decompile import Became, decompiled, parts_of, way_of
-from scenewright.translate.phrases import DOES, Phrases, listed, sentence
+from scenewright.translate.phrases import DOES, Phrases, amount, listed, sentence
 from scenewright.translate.tell import Teller
 
 
@@ -117,6 +117,9 @@ def _clause(teller: Teller, moment: int | None, told: Became) -> str:
         return f"all of this is at one moment, when {teller.event(moment)}"
     if moment == st.START:
         return f"{clause(told)} at the start"
+    time = teller.story.moments[moment].time
+    if time is not None and not teller.story.owners(moment):  # the clock alone says when
+        return f"{clause(told)} {amount(time)} after the start"
     text, event = clause(told, passing=st.is_event(told)), teller.event(moment)
     if isinstance(told, st.Measure):
         name = teller.name(told.actor)

@@ -321,6 +321,14 @@ def standstill(actor: int) -> Measure:
     return Measure(actor, Quantity.SPEED, "==", Amount(Fraction(0), "m/s"))
 
 
+def in_line(who: int, relation: Relation) -> Measure | None:
+    """Return that somebody is ahead of another, or behind it, as a gap; None where the relation is another one."""
+    if relation.kind not in ("ahead", "behind"):
+        return None
+    rear, front = (who, relation.of) if relation.kind == "behind" else (relation.of, who)
+    return Measure(rear, Quantity.GAP, ">", Amount(Fraction(0), "m"), other=front, quote=relation.quote)
+
+
 def not_beyond(measure: Measure) -> Measure | None:
     """Return what "at most 5 m before the stop line" says besides: that it is not past it; None of other measures."""
     if measure.place is None or measure.amount is None or measure.op not in ("<", "<="):

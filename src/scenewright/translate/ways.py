@@ -16,7 +16,7 @@ from scenewright.roads.routes import Route, all_routes, find_routes
 from scenewright.translate import story as st
 from scenewright.translate.compile import COMPASS, route_of
 from scenewright.translate.decompile import way_of
-from scenewright.translate.phrases import NO_GAP, TURNING, Phrases, sentence
+from scenewright.translate.phrases import TURNING, Phrases, sentence
 
 _INSTEAD = "it passes the conflict point"
 # How somebody's way begins against another's, in quarters of the compass to the right of it.
@@ -150,7 +150,7 @@ def _in_line(story: st.Story) -> st.Story:
             if isinstance(each, st.Measure) and each.quantity is st.Quantity.GAP}  # fmt: skip
     added = []
     for who, relation in ((actor.id, each) for actor in story.actors for each in actor.relations):
-        pair = (who, relation.of) if relation.kind == "behind" else (relation.of, who)  # the rear one first
-        if relation.kind in ("ahead", "behind") and pair not in told:
-            added.append(st.Measure(pair[0], st.Quantity.GAP, ">", NO_GAP, other=pair[1], quote=relation.quote))
+        gap = st.in_line(who, relation)
+        if gap is not None and (gap.actor, gap.other) not in told:
+            added.append(gap)
     return replace(story, moments=(replace(start, conditions=(*start.conditions, *dict.fromkeys(added))), *others))

@@ -189,6 +189,14 @@ def _stand_alone(taken: Taken, target: Target) -> None:
         raise taken.left_over(target.chunk)
 
 
+def line_up(clause: Clause) -> None:
+    """Take whom a clause says to be ahead or behind as what is so at its moment, not as a way of driving."""
+    gaps = [st.in_line(clause.subject, each) for each in clause.relations if clause.subject is not None]
+    found = [gap for gap in gaps if gap is not None]
+    if len(found) == len(clause.relations):
+        clause.measures, clause.relations = [*clause.measures, *found], []
+
+
 def _give(taken: Taken, at: int, op: st.Operator, chunk: Chunk, paired: Target | None) -> None:
     """Make a measure of an amount, with its own target, the nearest free one after it, else before it."""
     amount, clause = chunk.amount, taken.clause

@@ -13,7 +13,7 @@ from typing import Literal
 
 from scenewright.errors import UnknownWordsError
 from scenewright.translate import story as st
-from scenewright.translate.read.attach import read_clause
+from scenewright.translate.read.attach import line_up, read_clause
 from scenewright.translate.read.cast import Cast
 from scenewright.translate.read.chunks import Chunk
 from scenewright.translate.read.clauses import OPERATORS, PEOPLE, Clause
@@ -337,6 +337,7 @@ class _Items:
         item = self.one(inside)
         if self.others:
             self.people.refuse("this is said of two at once", item.quote, "say it of each")
+        line_up(item)
         if not item.conditions or item.says_more_than("measures", "joined"):
             self.people.refuse("this is no condition", item.quote, "say what is so")
         one, several = item.conditions[0], tuple(item.conditions)

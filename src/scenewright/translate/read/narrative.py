@@ -18,6 +18,7 @@ from scenewright.program.types import DEFAULT_MAP, EGO, Parameter
 from scenewright.translate import story as st
 from scenewright.translate.compile import DRIVEN
 from scenewright.translate.phrases import ORDINALS
+from scenewright.translate.read.attach import line_up
 from scenewright.translate.read.cast import Cast
 from scenewright.translate.read.clauses import Clause
 from scenewright.units import UNITS, Unit, unit_of_name
@@ -194,6 +195,7 @@ class Narrative(Cast):
     def conditions(self, items: Sequence[Clause], *taken: str) -> list[st.Condition]:
         """Return what a list says is so; `taken` are attributes of its clauses that something else takes."""
         for item in items:
+            line_up(item)
             wish = item.notes & {"wanted", "relative"}
             fast = all(each.quantity is st.Quantity.SPEED for each in item.measures)
             words = item.quote.text.lower().split()  # "when the ego, leaving the driveway, is ..."
