@@ -231,3 +231,13 @@ def test_a_program_that_makes_no_sense_is_not_judged(tmp_path: Path, line: str) 
     (run / "program.scene").write_text(f"{BRAKES.text}{line}\n", encoding="utf-8")
     with pytest.raises(ProgramError, match=r"two different things|no knot"):
         judge_run_directory(run)
+
+
+def test_one_temporal_operator_inside_another_is_told_as_not_judged(tmp_path: Path) -> None:
+    """Nothing is planned for it; of a run that was driven all else is told."""
+    run = write_run(tmp_path / "run", BRAKES)
+    nested = "nested: always[A1(t0), A1(t1)] (always[A1(t0), A1(t1)] (A1v <= 100))"
+    (run / "program.scene").write_text(f"{BRAKES.text}{nested}\n", encoding="utf-8")
+    verdict = judge_run_directory(run)
+    assert "not judged: one temporal operator inside another" in verdict.condition("nested").text
+    assert failed(verdict, TIGHT) == {"nested"}

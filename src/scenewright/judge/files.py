@@ -141,7 +141,7 @@ def read_case(directory: Path | str) -> Case:
         )
     text = _read_text(directory / "program.scene")
     program = parse_program(text, "program.scene")
-    check_program(program, text, "program.scene")
+    check_program(program, text, "program.scene", nested=True)
     paths, unmapped = _paths(manifest, program.actors)
     parameters = _si_values(_read_model(directory / "params.json", ParametersModel), program, directory)
     return Case(
