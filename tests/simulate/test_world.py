@@ -45,6 +45,14 @@ def test_an_ego_that_is_told_to_start_faster_than_it_would_drive_slows_down(ego:
     assert orchestrate(Request(FAST, ego=ego, explain="nothing")).status == "success"
 
 
+@pytest.mark.parametrize("bound", ["A0v(t0) >= 13", "A0v(t0) > 13", "A0v(t0) >= 13\nA0v(t0) <= 14"])
+@pytest.mark.parametrize("ego", ["constant:speed_mps=8", "idm:speed_mps=8"])
+def test_likewise_where_a_bound_has_it_start_faster(ego: str, bound: str) -> None:
+    text = FAST.replace("A0v(t0) == 13", bound)
+    assert world(ego, text).choose_and_check().answer == "feasible"
+    assert world(ego, FAST.replace("== 13", ">= 5")).ego_bounds == world(ego).ego_bounds
+
+
 def test_one_that_starts_as_it_drives_promises_what_it_did() -> None:
     assert world("constant:speed_mps=13", FAST).ego_bounds == EgoBounds(13.0, 0.0, 0.0, True)
     assert world("constant", FAST).ego_bounds == world("constant").ego_bounds

@@ -22,7 +22,7 @@ from scenewright.simulate.ego_start import EgoFirstState, told_speed_mps
 from scenewright.simulate.loop import Rates
 from scenewright.simulate.port import SIMULATORS
 from scenewright.simulate.vehicles import EgoVehicle
-from scenewright.solve.arrival import linear_conditions
+from scenewright.solve.arrival import ego_begins_between, linear_conditions
 from scenewright.solve.feasibility import EgoBounds, Feasibility, Question
 from scenewright.solve.parameters import settle
 from scenewright.solve.proofs.refuters import SOLVERS
@@ -75,6 +75,9 @@ class World:
         self.refuter = SOLVERS.called(solver)
         self.simulator = SIMULATORS.called(simulator)
         told_mps = told_speed_mps(scene, linear_conditions(scene, self.structure))
+        least_mps, most_mps = ego_begins_between(scene)[1]
+        if told_mps is None and guarded.envelope is not None and least_mps > guarded.envelope.speed_max_mps:
+            told_mps = most_mps  # it begins faster than it would: of its fastest start it promises least
         begins = None if told_mps is None else self.ego.start_at(0.0, told_mps)
         promise = None if self.simulator.capabilities.drives_ego else guarded.promise_from(begins)
         self.ego_bounds = (
