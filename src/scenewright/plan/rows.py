@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -39,37 +40,37 @@ class Block(NamedTuple):
 
     values: Array
     slopes: Array
-    most: float
+    most: Array | float
     columns: Columns | None
 
 
-@dataclass(slots=True)
+@dataclass
 class Rows:
-    """Rows as they are added. Slopes are by all unknowns, or by those only that `by` says then."""
+    """Rows as they are added, all before any is read. Slopes are by all unknowns, or by those that `by` says then."""
 
     blocks: list[Block] = field(default_factory=list)
     by: Columns | None = None
 
-    @property
+    @cached_property
     def values(self) -> Array:
         """The values of all rows."""
         return np.concatenate([np.zeros(0), *(block.values for block in self.blocks)])
 
-    @property
+    @cached_property
     def slopes(self) -> Array:
         """The slopes of all rows, where they are all by the same unknowns."""
         return np.concatenate([block.slopes for block in self.blocks])
 
-    @property
+    @cached_property
     def most(self) -> Array:
         """From where on the cost of each row grows evenly."""
-        return np.repeat([block.most for block in self.blocks], [len(block.values) for block in self.blocks])
+        return np.concatenate([np.zeros(0), *(np.full(len(block.values), block.most) for block in self.blocks)])
 
     def add(self, value: float, slope: Array, weight: float = 1.0, most: float = _ANY) -> None:
         """Add one row."""
         self.blocks.append(Block(np.array([weight * value]), (weight * slope)[None], most, self.by))
 
-    def add_all(self, values: Array, slopes: Array, weights: Array | float = 1.0, most: float = _ANY) -> None:
+    def add_all(self, values: Array, slopes: Array, weights: Array | float = 1.0, most: Array | float = _ANY) -> None:
         """Add a row for each value, with its slopes in a row."""
         self.blocks.append(Block(weights * values, np.asarray(weights)[..., None] * slopes, most, self.by))
 
@@ -99,6 +100,12 @@ class HeroRows:
     nodes: Mapping[int, int]
     costs: Rows
     bounds: Rows
+    _laws: list[tuple[Law, float, float]] = field(init=False)
+    _usual_rates: list[float] = field(init=False)
+
+    def __post_init__(self) -> None:
+        self._laws = list(self._spans())
+        self._usual_rates = [self._usual_rate(number) for number in range(len(self.shot.legs))]
 
     def add_all(self) -> None:
         """Add everything that the hero owes or prefers."""
@@ -107,7 +114,7 @@ class HeroRows:
         self._pieces()
         self._at_trigger()
         self._before_trigger()
-        for span in self._spans():
+        for span in self._laws:
             self._narrowed(*span)
 
     def _units(self, unknowns: Sequence[int], value: float) -> Array:
@@ -127,7 +134,7 @@ class HeroRows:
             self.costs.add(rate, self._units(now, 1.0)[0], wanted.change_weight)
         cells, first, second = shot.driven
         counts = [len(leg.accels[1:]) for leg in shot.legs]
-        usual = np.repeat([self._usual_rate(number) for number in range(len(counts))], counts)
+        usual = np.repeat(self._usual_rates, counts)
         roots = np.maximum(np.diff(shot.time)[cells], 0.02) ** 0.5
         begin, end, (one, other) = shot.z[first], shot.z[second], np.eye(len(shot.z))[[first, second]]
         self.costs.add_all(end - begin, other - one, 1.0 / (roots * wanted.jerk_mpsss))
@@ -138,14 +145,14 @@ class HeroRows:
         wanted, now, leg = self.asked.wanted, self.shot.z, self.shot.legs[number]
         kind = PieceKind.ACC if self._sets_off(number) else leg.kind
         usual = {PieceKind.DEC: -wanted.braking_mpss, PieceKind.ACC: wanted.speeding_up_mpss}.get(kind, 0.0)
-        for law, begin_s, end_s in self._spans():
+        for law, begin_s, end_s in self._laws:
             if begin_s - _ROUNDING_S <= leg.first.value(now) and leg.last.value(now) <= end_s + _ROUNDING_S:
                 usual = min(max(usual, float(law.rate_low)), float(law.rate_high))
         return usual
 
     def _faint(self, number: int) -> float:
         """Return how faintly a leg is begun, as a share of what is usual: one at 0.2 m/s^2 does not begin harder."""
-        return min(1.0, abs(self._usual_rate(number)) / self.asked.wanted.beginning_mpss)
+        return min(1.0, abs(self._usual_rates[number]) / self.asked.wanted.beginning_mpss)
 
     # -- limits -------------------------------------------------------------------------------------------------------
     def _limits(self) -> None:
@@ -299,11 +306,11 @@ class HeroRows:
         caps = self.asked.caps[hero]
         most, slope = caps.at(s_m, caps.on_the_way_to(place_m)[0])
         # By the time that each node stands for: else it is cheaper the later it is, and is put off for ever.
-        (lasts_s, d_lasts), weight = shot.stands_for(slice(first, last + 1)), wanted.price / TIGHT["speed"]
+        lasts_s, d_lasts = shot.stands_for(slice(first, last + 1))
         share = np.sqrt(lasts_s / CELL_S)
         slopes = d_v - slope[:, None] * d_s + (0.5 * (v - most) / lasts_s)[:, None] * d_lasts
-        for over, by, each in zip((v - most).tolist(), slopes, share.tolist(), strict=True):
-            self.bounds.add(over, by, each * weight, each * wanted.over_sign_most)
+        weights = share * (wanted.price / TIGHT["speed"])
+        self.bounds.add_all(v - most, slopes, weights, share * wanted.over_sign_most)
         if hero in self.now.waits:
             waits = until_s - shot.time[first : last + 1] > v_there / wanted.sets_off_mpss + wanted.waits_s
             beyond_m = s_m + v**2 / (2.0 * wanted.waits_mpss) + run_up_m - place_m
@@ -345,18 +352,17 @@ class HeroRows:
 
     def _narrowed(self, law: Law, begin_s: float, end_s: float) -> None:
         """Add a narrower law."""
-        speeds, rates = (float(law.speed_low), float(law.speed_high)), (float(law.rate_low), float(law.rate_high))
-        for node, accel in self._within(begin_s, end_s):
-            self._within_bounds(float(self.shot.v[node]), self.shot.d_v[node], *speeds, TIGHT["speed"])
-            if accel is not None:
-                self._within_bounds(float(self.shot.z[accel]), self._units([accel], 1.0)[0], *rates, TIGHT["rate"])
-
-    def _within_bounds(self, value: float, slope: Array, low: float, high: float, tight: float) -> None:
-        weight = self.asked.wanted.price / tight
-        if high < _UNBOUNDED:
-            self.bounds.add(value - high, slope, weight)
-        if low > -_UNBOUNDED:
-            self.bounds.add(low - value, -slope, weight)
+        within, shot = list(self._within(begin_s, end_s)), self.shot
+        nodes, accels = [node for node, _ in within], [accel for _, accel in within if accel is not None]
+        for values, slopes, low, high, tight in (
+            (shot.v[nodes], shot.d_v[nodes], float(law.speed_low), float(law.speed_high), TIGHT["speed"]),
+            (shot.z[accels], self._units(accels, 1.0), float(law.rate_low), float(law.rate_high), TIGHT["rate"]),
+        ):
+            weight = self.asked.wanted.price / tight
+            if high < _UNBOUNDED:
+                self.bounds.add_all(values - high, slopes, weight)
+            if low > -_UNBOUNDED:
+                self.bounds.add_all(low - values, -slopes, weight)
 
     def _within(self, begin_s: float, end_s: float) -> Iterator[tuple[int, int | None]]:
         """Yield nodes within a stretch of time, each with the unknown of a leg's rate there, if it is its own."""

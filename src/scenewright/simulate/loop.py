@@ -7,6 +7,7 @@ or by a policy or a simulator that fails, keeps what it had.
 
 from __future__ import annotations
 
+import gc
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import partial
@@ -106,6 +107,7 @@ def simulate(
     status, fault, step, astray_m = "finished", None, 0, 0.0
     ending = Ending(scene)
     now = shown(simulator, partial(simulator.reset, start, rates.step_s), start)
+    gc.freeze()  # to look for garbage among all that there is takes as long as several ticks
     try:
         while True:
             if int(step * ticks_a_step + _EXACT) > int((step - 1) * ticks_a_step + _EXACT) and step:
@@ -129,6 +131,8 @@ def simulate(
             raise  # nothing was driven, so nothing is kept
         fault = error if isinstance(error, ScenewrightError) else None
         status = "failed" if fault is not None else "interrupted"
+    finally:
+        gc.unfreeze()
     findings = [_DRIVES_EGO] if simulator.capabilities.drives_ego else list(start.ego.policy.findings)
     if astray_m >= _NOTED_M:
         findings.append(f"In this simulator heroes were up to {astray_m:.2f} m from where they were to be.")
