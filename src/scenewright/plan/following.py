@@ -22,7 +22,7 @@ _STANDSTILL_M, _ACCEL_MPSS, _BRAKE_MPSS, _HARDEST_MPSS = 2.0, 1.5, 2.0, 8.0
 # A hero that takes less than this off the ego's acceleration is too far ahead to matter yet.
 _NOTABLE_MPSS = 0.15
 # The headway that people keep; within which bounds, over how long a past and in how many halvings one's own is found,
-# and below which speed it is not (m/s). Narrower bounds were measured, and foresee less well (docs/closed-loop.md).
+# and below which speed it is not (m/s). Narrower bounds were measured, and foresee less well (docs/evaluation.md).
 _HEADWAY_S, _HEADWAYS_S, _JUDGED_S, _HALVINGS, _CRAWLS_MPS = 1.3, (0.2, 6.0), 1.0, 7, 1.0
 # Who brakes harder than this by itself slows for its turn or its stop line, whoever is ahead.
 _OWN_REASONS_MPSS = 0.3

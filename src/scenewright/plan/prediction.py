@@ -25,7 +25,7 @@ EgoSample = tuple[float, float, float, float]
 GOES_ON_S = 1.0
 # It is seen over the first (s): where it changes one way all the while it goes on to, ever more slowly, as if for the
 # second (s), but for what changes faster than the third (m/s^3): that is a twitch, or another intention. Each measured
-# against others (docs/closed-loop.md).
+# against others (docs/evaluation.md).
 _SEEN_S, _CHANGES_FOR_S, _TWITCH_MPSSS = 0.1001, 0.5, 3.0
 # Whoever has gained so much a second over the last second (m/s^2) is speeding up on purpose, ever more gently, to what
 # people drive there. Measured: without, of 120 first takes 3 fewer are met, and 4 fewer finely.
