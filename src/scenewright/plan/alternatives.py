@@ -24,11 +24,9 @@ from scenewright.solve.proofs.witness import Witness
 def planned_for(scene: Scene, witness: Witness | None) -> Scene:
     """Return the scene as heroes are planned in it."""
     scene = scene if witness is None else decided(scene, witness)
-    over = tuple(
-        Constraint(f"until_{hero}", _is_over(scene.program, hero, ends))
-        for hero, ends in beside_others(scene.program, read_structure(scene.program)).items()
-    )
-    return replace(scene, program=replace(scene.program, constraints=(*scene.program.constraints, *over)))
+    beside = beside_others(scene.program, read_structure(scene.program))
+    over = (Constraint(f"until_{hero}", _is_over(scene.program, hero, ends)) for hero, ends in beside.items())
+    return scene.besides(*over)
 
 
 def _is_over(program: Program, hero: int, ends: tuple[ex.Term, ...]) -> ex.Formula:

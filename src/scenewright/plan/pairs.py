@@ -187,7 +187,7 @@ class Way:
         planned = np.zeros(len(times), dtype=bool)
         if self.shot is not None:
             planned = times >= self.shot.time[0] - 1e-9
-            s[planned], v[planned], d_s[planned] = self.shot.along(times[planned])
+            s[planned], v[planned], _, d_s[planned], _ = self.shot.along(times[planned])
         if self.motion is not None:
             for k in np.flatnonzero(~planned):
                 s[k], v[k], _ = self.motion.state(float(times[k]))

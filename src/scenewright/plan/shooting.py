@@ -92,46 +92,36 @@ class Shot:
 
     def at(self, time_s: float, d_time: Array) -> tuple[float, float, Array, Array]:
         """Return place and speed at an instant, and their derivatives."""
-        last = len(self.time) - 1
-        node = min(max(int(np.searchsorted(self.time, time_s, side="right")) - 1, 0), last)
-        since, d_since = time_s - float(self.time[node]), d_time - self.d_time[node]
-        v, dv = float(self.v[node]), self.d_v[node]
-        if node == last:
-            return float(self.s[node]) + v * since, v, self.d_s[node] + since * dv + v * d_since, dv
-        lasts = max(float(self.time[node + 1] - self.time[node]), 1e-6)
-        d_lasts = self.d_time[node + 1] - self.d_time[node]
-        a, b = float(self.accel[node]), float(self.accel_after[node])
-        da, db = self._d_accel(node)
-        share = since / lasts
-        jerk = (b - a) / lasts
-        now = a + jerk * since
-        speed = v + a * since + 0.5 * jerk * since**2
-        place = float(self.s[node]) + v * since + 0.5 * a * since**2 + jerk * since**3 / 6.0
-        d_jerk_s = (db - da) * share - jerk * share * d_lasts  # derivative of the jerk, times `since`
-        d_speed = dv + since * da + 0.5 * since * d_jerk_s + now * d_since
-        d_place = self.d_s[node] + since * dv + 0.5 * since**2 * da + since**2 * d_jerk_s / 6.0 + speed * d_since
-        return place, speed, d_place, d_speed
+        (place,), (speed,), (rate,), (d_place,), (d_speed,) = self.along(np.array([time_s]))
+        return float(place), float(speed), d_place + speed * d_time, d_speed + rate * d_time
 
-    def along(self, times: Array) -> tuple[Array, Array, Array]:
-        """Return places and speeds at times that nothing moves, and the derivatives of the places, a row for each."""
+    def along(self, times: Array) -> tuple[Array, Array, Array, Array, Array]:
+        """Return places, speeds and rates at times that nothing moves.
+
+        And the derivatives of places and speeds, a row for each.
+        """
         last = len(self.time) - 1
         node = np.clip(np.searchsorted(self.time, times, side="right") - 1, 0, last)
         behind, beyond = np.minimum(node + 1, last), node == last
         since = times - self.time[node]
         lasts = np.where(beyond, 1.0, np.maximum(self.time[behind] - self.time[node], 1e-6))
         a, b = np.where(beyond, 0.0, self.accel[node]), np.where(beyond, 0.0, self.accel_after[node])
-        jerk = (b - a) / lasts
-        speed = self.v[node] + (a + 0.5 * jerk * since) * since
+        jerk, d_time, d_lasts = (b - a) / lasts, self.d_time[node], self.d_time[behind] - self.d_time[node]
+        rate, speed = a + jerk * since, self.v[node] + (a + 0.5 * jerk * since) * since
         place = self.s[node] + (self.v[node] + (0.5 * a + jerk * since / 6.0) * since) * since
-        by_jerk, d_lasts = since**3 / 6.0 / lasts, self.d_time[behind] - self.d_time[node]
+        to_speed, to_place = 0.5 * since**2 / lasts, since**3 / 6.0 / lasts  # of a unit of the rate that it comes to
+        d_speed = self.d_v[node] - rate[:, None] * d_time - (to_speed * jerk)[:, None] * d_lasts
         d_place = self.d_s[node] + since[:, None] * self.d_v[node]
-        d_place += -speed[:, None] * self.d_time[node] - (by_jerk * jerk)[:, None] * d_lasts
+        d_place += -speed[:, None] * d_time - (to_place * jerk)[:, None] * d_lasts
         cells, one, other = self.driven
         number = np.minimum(np.searchsorted(cells, node), len(cells) - 1)
         here = np.flatnonzero(cells[number] == node) if len(cells) else node[:0]
-        d_place[here, one[number[here]]] += 0.5 * since[here] ** 2 - by_jerk[here]
-        d_place[here, other[number[here]]] += by_jerk[here]
-        return place, speed, d_place
+        first, second = one[number[here]], other[number[here]]
+        d_speed[here, first] += since[here] - to_speed[here]
+        d_speed[here, second] += to_speed[here]
+        d_place[here, first] += 0.5 * since[here] ** 2 - to_place[here]
+        d_place[here, second] += to_place[here]
+        return place, speed, rate, d_place, d_speed
 
     def stands_for(self, nodes: slice) -> tuple[Array, Array]:
         """Return the time (s) that each of some nodes stands for, half of that to its neighbours, and its slopes."""
@@ -166,16 +156,10 @@ class Shot:
             return 0.0, np.zeros(len(self.z))
         lasts = max(float(self.time[node + 1] - self.time[node]), 1e-6)
         share = min(max((time_s - float(self.time[node])) / lasts, 0.0), 1.0)
-        da, db = self._d_accel(node)
-        rate = (1 - share) * float(self.accel[node]) + share * float(self.accel_after[node])
-        return rate, (1 - share) * da + share * db
-
-    def _d_accel(self, node: int) -> tuple[Array, Array]:
-        da, db = np.zeros(len(self.z)), np.zeros(len(self.z))
-        cells, one, other = self.driven
-        da[one[cells == node]] = 1.0
-        db[other[cells == node]] = 1.0
-        return da, db
+        d_rate, (cells, one, other) = np.zeros(len(self.z)), self.driven
+        d_rate[one[cells == node]] += 1.0 - share
+        d_rate[other[cells == node]] += share
+        return (1.0 - share) * float(self.accel[node]) + share * float(self.accel_after[node]), d_rate
 
 
 def shoot(legs: Sequence[Leg], start: Start, z: Array) -> Shot:

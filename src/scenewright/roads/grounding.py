@@ -26,7 +26,7 @@ from scenewright.program.expressions import (
     walk,
 )
 from scenewright.program.resolve import resolve, usual_partner
-from scenewright.program.types import Actor, HeadingsRoute, LanesRoute, Parameter, Program, RouteSpec
+from scenewright.program.types import Actor, Constraint, HeadingsRoute, LanesRoute, Parameter, Program, RouteSpec
 from scenewright.roads.conflicts import Conflict, find_conflict, shared_offset_m
 from scenewright.roads.model import RoadMap
 from scenewright.roads.routes import Route, RouteQuery, find_route
@@ -99,6 +99,10 @@ class Scene:
     def conflict(self, actor: int, other: int) -> Conflict | None:
         """Return the conflict of two actors' routes, or None where they never meet."""
         return find_conflict(self.routes[actor], self.routes[other])
+
+    def besides(self, *more: Constraint) -> Scene:
+        """Return the scene of the program that asks for this, too."""
+        return replace(self, program=replace(self.program, constraints=(*self.program.constraints, *more)))
 
     def open_parameters(self) -> tuple[Parameter, ...]:
         """Return the parameters without a value: the solver chooses them."""

@@ -243,18 +243,18 @@ def _kept_apart(scene: Scene, heroes: Iterable[int], speed_mps: float) -> Scene:
     """
     knot, meets_s = Knot(scene.program.ego.sketch.knots[0]), TAILGATES_S + speed_mps / (2.0 * HARD_MPSS)
     kinds: tuple[tuple[DerivedKind, float], ...] = ("headway", TAILGATES_S), ("ttc", meets_s)
-    more = (
-        Constraint(f"begins_{kind}_{hero}", Compare(">=", Derived(kind, EGO, hero, knot), Number(pin(least_s))))
-        for hero, (kind, least_s) in product(heroes, kinds)
+    return scene.besides(
+        *(
+            Constraint(f"begins_{kind}_{hero}", Compare(">=", Derived(kind, EGO, hero, knot), Number(pin(least_s))))
+            for hero, (kind, least_s) in product(heroes, kinds)
+        )
     )
-    return replace(scene, program=replace(scene.program, constraints=(*scene.program.constraints, *more)))
 
 
 def _at_speed(scene: Scene, speed_mps: float) -> Scene:
     """Return a scene whose program says besides that the ego begins at this speed."""
     begins = State(EGO, 1, Knot(scene.program.ego.sketch.knots[0]))
-    more = Constraint("begins_as_usual", Compare("==", begins, Number(pin(speed_mps))))
-    return replace(scene, program=replace(scene.program, constraints=(*scene.program.constraints, more)))
+    return scene.besides(Constraint("begins_as_usual", Compare("==", begins, Number(pin(speed_mps)))))
 
 
 def first_plan_of_smt(world: World) -> tuple[HeroDriver, EgoFirstState, Attempt] | str:
