@@ -109,6 +109,18 @@ def test_what_was_measured_at_a_trigger_is_tried_where_it_came(came: bool) -> No
     assert any("6.6 m/s" in each for each in said) is came
 
 
+def test_how_near_two_came_to_a_trigger_that_never_came_is_tried() -> None:
+    """An ego that keeps a longer headway than is asked for comes no nearer, whatever the hero does."""
+    world: World = set_up(Request(STORIES["goes first, distance"] + "probe: A0v(t1) - A1v(t1) == 2\n"), Stages(None))[0]
+    whole = verdict_to_mend()
+    probe = Condition("probe", "trigger", "", 2.0, 3.4, 1.4, "m/s", Leaf(1.4, "speed"))
+    facts = {**whole.facts, "trigger_came": {"hero": False}}
+    verdict = replace(whole, cause=Cause("plan", "", {}), conditions=(*whole.conditions, probe), facts=facts)
+    said: list[str] = []
+    ways_out(world.scene, verdict, TIGHT, lambda *_: False, said.append)
+    assert "3.4 m/s" in said[0]
+
+
 def test_what_was_off_by_tolerances_is_tried_in_the_unit_of_the_number() -> None:
     """Of what lasts, and of alternatives, a verdict knows no number that was measured."""
     text = STORIES["goes first, distance"] + "probe: always[A0(t0), A0(t1)] (A0v <= 6)\n"
@@ -140,6 +152,20 @@ def test_trying_ends_with_the_simulated_time() -> None:
 
     driven, told, _ = tried(for_long)
     assert (driven, told) == (2, 1), "the second is not driven to its end"
+
+
+def test_one_that_takes_long_leaves_time_for_others() -> None:
+    """It is not told to have been tried, for nobody knows what would have come of it."""
+    calls: list[int] = []
+
+    def first_for_long(_: Program, __: Mapping[str, float], progress: Callable[[float], None]) -> bool:
+        calls.append(1)
+        for tenth in range(1, 1201 if len(calls) == 1 else 101):
+            progress(0.1 * tenth)
+        return len(calls) > 1
+
+    driven, told, _ = tried(first_for_long)
+    assert (driven, told) == (2, 1)
 
 
 def test_who_interrupts_wants_no_more() -> None:

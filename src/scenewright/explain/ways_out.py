@@ -21,8 +21,9 @@ from scenewright.program.types import EGO, Program
 from scenewright.roads.grounding import Scene
 from scenewright.solve.suggestions import Lever, levers
 
-# No more runs than this, of no more simulated seconds than this in all: who waits for an answer waits for them, too.
-_TRIES, _ALL_S = 6, 60.0
+# No more runs than this, of no more simulated seconds than this in all, nor in each: who waits for an answer waits for
+# them, too, and one that waits for a minute is no reason to try none of the others.
+_TRIES, _ALL_S, _EACH_S = 6, 60.0, 40.0
 _ENOUGH = 1  # who waits is helped by one
 _SAME = 1e-6  # a number that was written and one that is required of it
 # Tried of each number: half and twice it, and a step between; whoever wants the edge asks `check`.
@@ -31,8 +32,8 @@ _MORE, _LESS = (Fraction(3, 2), Fraction(2)), (Fraction(2, 3), Fraction(1, 2))
 Drive = Callable[[Program, Mapping[str, float], Callable[[float], None]], bool]
 
 
-class _LongEnough(Exception):  # noqa: N818 - the end of a search, not an error
-    """All that may be simulated has been."""
+class _LongEnough(Exception):  # noqa: N818 - the end of a try, not an error
+    """All that may be simulated in it has been."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,11 +77,11 @@ def ways_out(
     def goes_on(time_s: float) -> None:
         nonlocal driven_s, last_s
         driven_s, last_s = driven_s + max(0.0, time_s - last_s), time_s
-        if driven_s > _ALL_S:
+        if driven_s > _ALL_S or time_s > _EACH_S:
             raise _LongEnough
 
     for trial in _trials(scene, verdict, tolerance):
-        if tries >= _TRIES or len(found) >= _ENOUGH:
+        if tries >= _TRIES or len(found) >= _ENOUGH or driven_s > _ALL_S:
             break
         program = trial.lever.put(scene.program, Number(trial.value * trial.si_factor))
         if trial.lever.what in found or not (trial.is_parameter or program != scene.program):
@@ -89,7 +90,7 @@ def ways_out(
         try:
             happens = succeeds(program, {trial.lever.name: float(trial.value)} if trial.is_parameter else {}, goes_on)
         except _LongEnough:
-            break
+            continue
         tries += 1
         if happens:
             found[trial.lever.what] = trial.way_out()
@@ -133,8 +134,9 @@ def _measured(scene: Scene, verdict: Verdict, failed: Sequence[str]) -> Iterator
     """Yield what was measured for numbers that were required, what was named first; else what was off, either way."""
     named = verdict.cause.evidence if verdict.cause is not None else {}
     conditions = {condition.id: condition for condition in verdict.conditions if condition.id in failed}
-    if not all(verdict.facts["trigger_came"].values()):  # what was measured at one that never came says nothing
-        conditions = {name: each for name, each in conditions.items() if each.kind != "trigger"}
+    if not all(verdict.facts["trigger_came"].values()):  # of one that never came only how near two came to it says much
+        both = {each.id for each in scene.program.constraints if len(actors_of(each.formula)) > 1}
+        conditions = {name: each for name, each in conditions.items() if each.kind != "trigger" or name in both}
     for name in sorted(conditions, key=lambda name: name != named.get("condition")):
         condition = conditions[name]
         for lever in levers(scene, [name]):
