@@ -51,3 +51,11 @@ def test_actors_share_one_time_axis() -> None:
     empty = ActorTrace(*(np.zeros(0) for _ in range(1 + len(COLUMNS))))
     with pytest.raises(ValueError, match="one non-empty time axis"):
         Trace({"ego": empty})
+
+
+def test_traces_are_equal_where_all_samples_are() -> None:
+    one, same, other = (Trace({"ego": braking(3, speed_mps, 0.0)}) for speed_mps in (1.0, 1.0, 1.5))
+    assert one == same
+    assert one != other
+    assert one != Trace({"ego": braking(4, 1.0, 0.0)})
+    assert one.actors["ego"] != "ego"

@@ -7,7 +7,7 @@ between its first and last sample. It knows nothing of plans; reading and writin
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import NamedTuple
 
 import numpy as np
@@ -36,9 +36,9 @@ class ActorState(NamedTuple):
 COLUMNS = ActorState._fields
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class ActorTrace:
-    """One actor's samples; all arrays have the shape of the trace's ``time_s``.
+    """One actor's samples; all arrays have the shape of the trace's ``time_s``. Equal where all samples are.
 
     ``s_m`` is arc length along the actor's own route, ``d_m`` lateral offset (left positive), ``accel_mps2`` the
     acceleration that starts at the sample (right-continuous).
@@ -52,6 +52,14 @@ class ActorTrace:
     accel_mps2: FloatArray
     s_m: FloatArray
     d_m: FloatArray
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, ActorTrace):
+            return NotImplemented
+        return all(np.array_equal(getattr(self, each.name), getattr(other, each.name)) for each in fields(self))
+
+    def __hash__(self) -> int:
+        return hash(len(self.time_s))
 
     def position(self, time_s: float) -> float:
         """Return the arc length (m) at any instant: cubic Hermite between samples, exact for constant acceleration."""
