@@ -197,7 +197,7 @@ def _planned_so(
         Whether all that the program asks for came about: what was missed is owed by any run.
     """
     planned = [tick for tick in run.replans if tick.foreseen is not None and tick.time_s < until_s]
-    last = planned[-1] if planned else run.replans[0]
+    last, off = planned[-1] if planned else run.replans[0], missed[0].off_by and f" by {missed[0].off_by}"
     if does_all or last.tolerance <= GOOD:
         return Finding(
             f"the last plan, of {last.time_s:.1f} s, does all that was asked of {called(hero.name)}, as far as it was "
@@ -206,6 +206,7 @@ def _planned_so(
         )
     return Finding(
         f"no plan was found that does all that was asked of {called(hero.name)}, though for most of the time it was "
-        f"within its limits: the last one, of {last.time_s:.1f} s, missed by {last.tolerance:.1f} tight tolerances",
-        {"hero": hero.name, "time_s": last.time_s, "missed": last.tolerance},
+        f"within its limits: the last one, of {last.time_s:.1f} s, missed by {last.tolerance:.1f} tight tolerances, and "
+        f'what came of it misses "{missed[0].text}"{off}',
+        {"hero": hero.name, "time_s": last.time_s, "missed": last.tolerance, "misses": missed[0].id},
     )
