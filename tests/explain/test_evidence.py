@@ -17,6 +17,7 @@ from scenewright.explain.evidence import (
     orders_with_ego,
 )
 from scenewright.judge.verdict import Verdict
+from scenewright.motion.profile import Profile
 from scenewright.orchestrate import orchestrate, set_up
 from scenewright.plan.planner import GOOD
 from scenewright.program.text import parse_program
@@ -64,6 +65,10 @@ def test_when_a_hero_acted_is_told_as_such() -> None:
     assert ", and the hero acted 1.0 s later;" in told[planned_s + 1.0]
     assert ", and the hero acted 1.0 s sooner;" in told[planned_s - 1.0]
     assert f", and the hero had yet to act {end_s - planned_s:.1f} s later, when the run ended;" in told[end_s]
+    late = replace(good, foreseen=Profile(good.foreseen.segments, {"t0": 0.0, "t1": end_s + 3.0}))
+    found = foreseen_otherwise(world, run, late, end_s, hero, at_trigger=True)
+    assert found is not None
+    assert ", and the run ended 3.0 s before the hero was to act;" in found.text
 
 
 def test_a_trigger_without_the_ego_is_not_held_against_when_it_comes_to_one(monkeypatch: pytest.MonkeyPatch) -> None:

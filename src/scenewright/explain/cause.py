@@ -206,7 +206,7 @@ def _planned_so(
         )
     return Finding(
         f"no plan was found that does all that was asked of {called(hero.name)}, though for most of the time it was "
-        f"within its limits: the last one, of {last.time_s:.1f} s, missed by {last.tolerance:.1f} tight tolerances, and "
-        f'what came of it misses "{missed[0].text}"{off}',
+        f"within its limits: the last one, of {last.time_s:.1f} s, missed by {last.tolerance:.1f} tight tolerances, "
+        f'and what came of it misses "{missed[0].text}"{off}',
         {"hero": hero.name, "time_s": last.time_s, "missed": last.tolerance, "misses": missed[0].id},
     )

@@ -107,6 +107,8 @@ def foreseen_otherwise(
     since_s = next(left, then_s)
     acted = f", and {called(hero.name)} acted {abs(off_s):.1f} s {'later' if off_s > 0 else 'sooner'}"
     never = f", and {called(hero.name)} had yet to act {off_s:.1f} s later, when the run ended"
+    if off_s < 0.0:
+        never = f", and the run ended {-off_s:.1f} s before {called(hero.name)} was to act"
     came = "" if abs(off_s) <= TIGHT.time_s else acted if until_s < run.trace.duration_s else never
     text = (
         f"the ego did not drive as foreseen: at {then_s:.1f} s it was {abs(off_m):.1f} m further "
