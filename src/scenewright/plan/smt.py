@@ -25,7 +25,7 @@ from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
 from scenewright.solve.plan import Plan
 from scenewright.solve.proofs.events import EgoBounds
-from scenewright.solve.proofs.refuters import Answer, clashing
+from scenewright.solve.proofs.refuters import Answer, answer_of, clashing
 from scenewright.solve.proofs.z3_engine import Z3
 from scenewright.translate.lines import told_constraints
 
@@ -128,7 +128,7 @@ class SmtPlanner:
         return status, "; ".join(told)
 
     def _ask(self, question: Question) -> Answer:
-        return self._solver.ask(question.unknowns, question.formulas, LIMIT_S)
+        return answer_of(self._solver, question.unknowns, question.formulas, LIMIT_S)
 
     def _keep(self, question: Question, answer: Answer, tolerance: float) -> None:
         values, profiles = question.values(answer.values), dict[int, Profile]()

@@ -82,7 +82,7 @@ def read_structure(program: Program) -> Structure:
     return Structure(triggers, roles, tuple(instants), starts)
 
 
-def knots_of(formula: Formula) -> Iterator[KnotKey]:
+def knots_of(formula: Node) -> Iterator[KnotKey]:
     """Yield every knot that `formula` speaks of, with the actor it belongs to."""
     for node in walk(formula):
         match node:

@@ -1,8 +1,7 @@
 """When motions meet a condition: the instant at which the ego, as predicted, is where a trigger wants it.
 
 What enters: equalities that speak of actors' states at one moment. What leaves: conditions that are linear in
-positions and speeds, and the first time at which given motions meet them, exactly within each stretch of constant
-acceleration.
+positions and speeds, and when given motions meet them first.
 """
 
 from __future__ import annotations
@@ -12,7 +11,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 
-from scenewright.algebra.polynomials import ZERO, Monomial, Polynomial, atoms
+from scenewright.algebra.polynomials import ZERO, Polynomial, atoms
 from scenewright.motion.limits import Limits
 from scenewright.motion.profile import Profile
 from scenewright.program.expressions import Compare
@@ -34,12 +33,7 @@ TIGHT_TIME_S = float(TIGHT["time"])
 class LinearCondition:
     """``constant + sum of per_metre * position + per_speed * speed == 0`` over some actors, at one moment.
 
-    Attributes
-    ----------
-    moments
-        The knots that the constraint speaks of: the same moment, or one knot alone.
-    weights
-        ``(per_metre, per_speed)`` by actor id.
+    `moments` are the knots that the constraint speaks of; `weights` are ``(per_metre, per_speed)`` by actor id.
     """
 
     constraint_id: str
@@ -101,9 +95,7 @@ def linear_conditions(scene: Scene, structure: Structure, *, with_bounds: bool =
 
     Of a bound, where these are asked for too, it is where it begins to hold.
     """
-    events = Events(scene, {actor.id: _ANYBODY for actor in scene.program.actors}, EgoBounds())
-    lowering = Lowering(events)
-    start = frozenset((actor.id, actor.sketch.knots[0]) for actor in scene.program.actors)
+    lowering, start = _lowering(scene), frozenset(structure.starts.items())
     found: list[LinearCondition] = []
     for constraint in scene.program.constraints:
         formula = constraint.formula
@@ -115,12 +107,15 @@ def linear_conditions(scene: Scene, structure: Structure, *, with_bounds: bool =
         ):
             continue
         (lowered,) = lowering.lower((replace(constraint, formula=replace(formula, operator="==")),))
-        equality = next((atom.left for atom in atoms(lowered.formula) if atom.relation == "=="), None)
-        weights = None if equality is None else _weights(events, equality)
-        if equality is not None and weights:
+        equality = next((atom.left for atom in atoms(lowered.formula) if atom.relation == "=="), Polynomial({}))
+        if weights := _weights(lowering.events, equality):
             constant = float(equality.terms.get((), ZERO))
             found.append(LinearCondition(constraint.id, moments, constant, weights))
     return tuple(found)
+
+
+def _lowering(scene: Scene) -> Lowering:
+    return Lowering(Events(scene, {actor.id: _ANYBODY for actor in scene.program.actors}, EgoBounds()))
 
 
 def of_ego(conditions: Iterable[LinearCondition], structure: Structure) -> Iterator[LinearCondition]:
@@ -151,16 +146,18 @@ def of_ego(conditions: Iterable[LinearCondition], structure: Structure) -> Itera
 
 def knot_between_s(scene: Scene, key: KnotKey) -> tuple[float, float]:
     """Return how long after the start a knot comes at least, and at most, as far as times are told."""
-    events = Events(scene, {actor.id: _ANYBODY for actor in scene.program.actors}, EgoBounds())
-    formulas = [each.formula for each in Lowering(events).lower(scene.program.constraints)]
+    lowering = _lowering(scene)
+    events = lowering.events
+    formulas = [each.formula for each in lowering.lower(scene.program.constraints)]
     least, begins, knot = least_differences(events, formulas), events.start, events.knot(*key)
     return float(least[begins, knot]), -float(least[knot, begins])
 
 
 def ego_begins_between(scene: Scene) -> tuple[tuple[float, float], tuple[float, float]]:
     """Return between which places (m) the ego begins, and how fast at least and at most, as far as bounds tell."""
-    events = Events(scene, {actor.id: _ANYBODY for actor in scene.program.actors}, EgoBounds())
-    state, lowering = events.state(EGO, events.start), Lowering(events)
+    lowering = _lowering(scene)
+    events = lowering.events
+    state = events.state(EGO, events.start)
     formulas = [each.formula for each in lowering.lower(scene.program.constraints)]
     ranges = tightened(events.unknowns, formulas)
     place, speed = (ranges[each.number] for each in (state.place, state.speed))
@@ -169,21 +166,16 @@ def ego_begins_between(scene: Scene) -> tuple[tuple[float, float], tuple[float, 
     return (float(place.low), float(place.high)), (float(max(least)), float(min(most)))
 
 
-def _weights(events: Events, left: Polynomial) -> dict[int, tuple[float, float]] | None:
-    """Return what a polynomial weighs each actor's position and speed with; None where it is not linear in them."""
-    owners: dict[Monomial, tuple[int, bool]] = {}
+def _weights(events: Events, left: Polynomial) -> dict[int, tuple[float, float]]:
+    """Return what a polynomial weighs each actor's position and speed with; nothing where it is not linear in them."""
+    weights, rest = dict[int, tuple[float, float]](), left.terms.keys() - {()}
     for (actor, _), state in events.states.items():
-        owners |= dict.fromkeys(state.place.terms, (actor, False)) | dict.fromkeys(state.speed.terms, (actor, True))
-    weights: dict[int, tuple[float, float]] = {}
-    for key, factor in left.terms.items():
-        if key == ():
-            continue
-        if key not in owners:
-            return None
-        actor, is_speed = owners[key]
-        per_metre, per_speed = weights.get(actor, (0.0, 0.0))
-        weights[actor] = (per_metre, float(factor)) if is_speed else (float(factor), per_speed)
-    return weights
+        parts = state.place.terms.keys() & rest, state.speed.terms.keys() & rest
+        if any(parts):
+            rest -= parts[0] | parts[1]
+            per_metre, per_speed = (float(sum(left.terms[key] for key in part)) for part in parts)
+            weights[actor] = per_metre, per_speed
+    return {} if rest else weights
 
 
 def tight_of(condition: LinearCondition, speed_mps: float) -> float:

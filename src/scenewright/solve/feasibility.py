@@ -1,8 +1,7 @@
 """Asks whether a scenario can happen at all with any ego that keeps its promises; if not, why not and what would help.
 
-What enters: a question, with bounds on everybody's motion. What leaves: a motion that shows that it can; or the
-clashing constraints in the user's words, what the proof rests on, and the nearest values that would do; or that neither
-was found.
+What enters: a question. What leaves: a motion that shows that it can; or what clashes, in the user's words, and the
+nearest values that would do; or that neither was found.
 """
 
 from __future__ import annotations
@@ -41,14 +40,9 @@ class Clash:
 
 @dataclass(frozen=True, slots=True)
 class Feasibility:
-    """Whether a scenario can happen.
+    """Whether a scenario can happen: ``feasible`` (there is a `witness`), ``infeasible`` (proven) or ``undecided``.
 
-    Attributes
-    ----------
-    answer
-        ``feasible`` (there is a `witness`), ``infeasible`` (proven) or ``undecided``.
-    parameters
-        SI values of open parameters in the witness, where there is one.
+    `parameters` are SI values of open parameters in the witness.
     """
 
     answer: Literal["feasible", "infeasible", "undecided"]
@@ -102,25 +96,17 @@ def _reason(program: Program, decision: Decision) -> str:
     if decision.doubted_by:
         return f"{decision.doubted_by} finds it impossible, to within its numerical tolerance; that is no proof"
     if decision.left_out:
-        told = "; ".join(f"{name}: {why}" for name, why in decision.left_out.items())
-        return f"no plan can be made for {told}"
-    if decision.amiss:
-        still = _amiss_in_words(program, decision.amiss[0])
-        return f"neither a motion nor a proof was found in time; in the best motion {still}"
-    return "neither a motion nor a proof was found in time"
+        return "no plan can be made for " + "; ".join(f"{name}: {why}" for name, why in decision.left_out.items())
+    still = f"; in the best motion {_amiss_in_words(program, decision.amiss[0])}" if decision.amiss else ""
+    return f"neither a motion nor a proof was found in time{still}"
 
 
 def _amiss_in_words(program: Program, broken: Broken) -> str:
     """Say what is amiss with a motion."""
     name, other = (program.actor(actor).name for actor in (broken.actor, broken.other))
-    match broken.what:
-        case "turn":
-            return f"{name} takes its turn too fast"
-        case "apart":
-            return f"{other} and {name} touch"
-        case "law":
-            return f"{name} moves as nobody can"
-    return f"this does not hold: {clash(program, broken.what)}"
+    told = {"turn": f"{name} takes its turn too fast", "apart": f"{other} and {name} touch"}
+    told |= {"law": f"{name} moves as nobody can"}
+    return told.get(broken.what) or f"this does not hold: {clash(program, broken.what)}"
 
 
 def clash(program: Program, origin: str) -> Clash:

@@ -58,7 +58,7 @@ def not_held(
     parameters = {name: float(value) for name, value in scene.parameters.items()}
     ego, world = profiles[EGO], PlanWorld(scene, profiles, parameters)
     passed = Profile(ego.segments, ego.knot_times_s | dict(_passed_s(scene, ego, world)))
-    world = PlanWorld(scene, {**profiles, EGO: passed}, parameters)
+    world.profiles = {**profiles, EGO: passed}
     open_knots = {(EGO, name) for name in scene.program.ego.sketch.knots[1:]} - _told(scene.program)
     for constraint in scene.program.constraints:
         of_ego = actors_of(constraint.formula) == {EGO}

@@ -1,8 +1,7 @@
 """Chooses the parameters that the user left open: everyday values first, and where those clash what the solver finds.
 
 What enters: a scene with open parameters. What leaves: the same scene with every parameter set. A model of the solver
-sits in a corner of what is possible (3 m, 0.05 s); a test engineer who gave no number expects an unremarkable one. What
-comes of it is a beginning: who plans against an ego may choose others.
+sits in a corner of what is possible (3 m, 0.05 s); a test engineer who gave no number expects an unremarkable one.
 """
 
 from __future__ import annotations

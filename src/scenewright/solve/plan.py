@@ -20,13 +20,7 @@ _SAME_MOMENT_S = 1e-6
 
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """Motions by actor id; for the ego what was predicted.
-
-    Attributes
-    ----------
-    tolerance
-        What is missed most of what is asked of heroes, in tight tolerances.
-    """
+    """Motions by actor id; for the ego what was predicted. `tolerance` is the worst miss, in tight tolerances."""
 
     profiles: Mapping[int, Profile]
     tolerance: float = 0.0

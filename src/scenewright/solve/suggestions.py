@@ -1,7 +1,6 @@
 """Suggests what would make an infeasible scenario possible: the nearest other value of one number that clashes.
 
-What enters: a scene that is proven infeasible, and the core of the proof. What leaves: suggestions, each tried: with
-that value there is a witness.
+What enters: a scene that is proven infeasible, and the core of the proof. What leaves: suggestions, each tried.
 """
 
 from __future__ import annotations
@@ -9,10 +8,11 @@ from __future__ import annotations
 from collections.abc import Container, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from math import floor
 
 from scenewright.program.expressions import Arithmetic, Compare, Number, ParameterRef, Term, exchanged, walk
 from scenewright.program.printer import print_expression
-from scenewright.program.types import Constraint, Program
+from scenewright.program.types import Program
 from scenewright.roads.grounding import Scene
 from scenewright.solve.proofs.decide import Question, decide, shown
 from scenewright.solve.proofs.forms import compared_dimension
@@ -51,21 +51,14 @@ class Suggestion:
 class Lever:
     """One number of a program that could be another: a parameter, or one that is written in a constraint.
 
-    Attributes
-    ----------
-    value
-        In SI units.
-    name
-        That of the parameter; for a written number one that it can be given.
-    constraint, number
-        Where a written number stands; None for a parameter.
+    `value` is in SI units, `name` the parameter's or one that a written number can be given; a `number` that is written
+    is that node of the program, None for a parameter.
     """
 
     what: str
     value: Fraction
     dimension: Dimension | None
     name: str
-    constraint: Constraint | None = None
     number: Number | None = None
 
     @property
@@ -75,22 +68,13 @@ class Lever:
 
     def put(self, program: Program, term: Term) -> Program:
         """Return the program with `term` in place of the written number; the same one for a parameter."""
-        if self.constraint is None or self.number is None:
-            return program
-        formula = exchanged(self.constraint.formula, lambda node: node is self.number, term)
-        changed = replace(self.constraint, formula=formula)
-        constraints = tuple(changed if c.id == changed.id else c for c in program.constraints)
-        return replace(program, constraints=constraints)
+        formulas = (exchanged(each.formula, lambda node: node is self.number, term) for each in program.constraints)
+        changed = (replace(each, formula=new) for each, new in zip(program.constraints, formulas, strict=True))
+        return program if self.number is None else replace(program, constraints=tuple(changed))
 
 
 def suggest(question: Question, core: set[str]) -> Iterator[Suggestion]:
-    """Yield a few changes of one number, each with the value nearest to the present one that is possible.
-
-    Parameters
-    ----------
-    core
-        Ids of the constraints that clash; only their numbers are tried.
-    """
+    """Yield a few changes of one number of the constraints in a `core`, each to the nearest value that is possible."""
     trials, found = _Trials(question), list[tuple[Lever, list[Fraction]]]()
     for lever in levers(question.scene, core):
         if len(found) >= _SUGGESTIONS or trials.left_s <= (_NEARER_S if found else 0.0):
@@ -125,7 +109,7 @@ def levers(scene: Scene, constraints: Container[str]) -> Iterator[Lever]:
                 said = print_expression(constraint.formula) if is_code else f'"{in_words(program, constraint)}"'
                 what = f"{format_fraction(node.value)} in {said}"
                 own = node.dimension or (None if multiplies else dimension)  # a factor has none
-                yield Lever(what, node.value, own, f"free_{constraint.id}", constraint, node)
+                yield Lever(what, node.value, own, f"free_{constraint.id}", node)
 
 
 @dataclass(slots=True)
@@ -199,6 +183,5 @@ class _Trials:
 def _rounded(found: Fraction, origin: Fraction, digits: int) -> tuple[Fraction, Fraction]:
     """Return a number with so many decimals: the nearest, and the next one away from the value that did not work."""
     scaled = found * 10**digits
-    floor = scaled.numerator // scaled.denominator
-    away = floor if found < origin else floor + 1
+    away = floor(scaled) if found < origin else floor(scaled) + 1
     return Fraction(round(scaled), 10**digits), Fraction(away, 10**digits)

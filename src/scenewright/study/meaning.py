@@ -22,7 +22,7 @@ from scenewright.roads.grounding import Scene, ground
 from scenewright.roads.load import load_map
 from scenewright.solve.proofs.events import EgoBounds, Events
 from scenewright.solve.proofs.lowering import Lowering
-from scenewright.solve.proofs.refuters import SOLVERS
+from scenewright.solve.proofs.refuters import SOLVERS, answer_of
 
 _TIMEOUT_S = 2.0
 _FAR = Fraction(10**6)  # what two texts mean does not depend on how far a road goes or how fast a car is
@@ -186,7 +186,7 @@ class _Asking:
         if denied.refused:
             return False
         parts = [*self._always, *(self._held[said.formula].formula for said in given), denied.formula]
-        answer = self._refuter.ask(self._unknowns, [Named(part, "") for part in parts], _TIMEOUT_S)
+        answer = answer_of(self._refuter, self._unknowns, [Named(part, "") for part in parts], _TIMEOUT_S)
         return answer.kind == "refuted"
 
 

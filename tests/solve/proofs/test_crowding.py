@@ -13,7 +13,7 @@ from scenewright.program.text import parse_program
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.roads.grounding import Scene, ground
 from scenewright.roads.load import load_map
-from scenewright.solve.proofs.crowding import APART, crowded
+from scenewright.solve.proofs.apart import APART, crowded
 from scenewright.solve.proofs.decide import Question, decide
 from scenewright.solve.proofs.events import EgoBounds, Events
 from scenewright.solve.proofs.lowering import Lowering

@@ -6,7 +6,7 @@ from fractions import Fraction
 
 from planted import EGO, T, limits_of
 
-from scenewright.algebra.polynomials import unknown
+from scenewright.algebra.polynomials import polynomial, unknown
 from scenewright.program.text import parse_program
 from scenewright.roads.grounding import Scene, ground
 from scenewright.solve.proofs.events import EgoBounds, Events
@@ -40,9 +40,9 @@ def test_knots_that_are_one_moment_are_one_instant() -> None:
 def test_a_moment_that_is_asked_for_twice_is_one() -> None:
     events = events_of()
     later = events.times[events.knot(1, "t1")] + Fraction(2)
-    assert events.moment(later, "later") == events.moment(later, "again")
-    assert events.clock(Fraction(3)) == events.clock(Fraction(3))
-    assert events.moment(events.times[events.start] - 5, "before") == events.start
+    assert events.moment(later) == events.moment(later)
+    assert events.moment(polynomial(3)) == events.moment(polynomial(3))
+    assert events.moment(events.times[events.start] - 5) == events.start
     assert events.at_place(1, Fraction(100)) == events.at_place(1, Fraction(100)) != events.at_place(1, Fraction(101))
 
 

@@ -15,9 +15,8 @@ from scenewright.program.evaluate import violation as violation_of_motion
 from scenewright.program.text import parse_program
 from scenewright.roads.grounding import ground
 from scenewright.solve.plan import PlanWorld
-from scenewright.solve.proofs.events import EgoBounds, Events
+from scenewright.solve.proofs.events import EgoBounds, Events, Narrowing
 from scenewright.solve.proofs.lowering import Lowering
-from scenewright.solve.proofs.narrowing import Narrowing
 
 FORMS = [
     "A1x(t1) == 90", "A1v(t1) <= 6", "A1v(A0(t2)) >= 4", "A1x(2.0) <= 100", "A1(t2) - A1(t1) >= 2 s", "A1(t1) < A0(t2)",

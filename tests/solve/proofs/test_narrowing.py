@@ -10,10 +10,9 @@ from planted import EGO, T, limits_of
 from scenewright.motion.laws import ANY
 from scenewright.program.text import parse_program
 from scenewright.roads.grounding import ground
-from scenewright.solve.proofs.events import Events
+from scenewright.solve.proofs.events import Events, Narrowing
 from scenewright.solve.proofs.forms import asserted
 from scenewright.solve.proofs.lowering import Lowering
-from scenewright.solve.proofs.narrowing import Narrowing, narrowings_of
 
 HEAD = "Actor 0 (ego):\n- W\n- [t0, go, t1, go, t2]\n\nActor 1 (hero):\n- W\n- [t0, go, t1, dec, t2]\n\nConstraints:\n"
 
@@ -22,7 +21,7 @@ def narrowed(text: str) -> tuple[Events, list[Narrowing]]:
     scene = ground(parse_program(HEAD + "A0(t1) == A1(t1)\n" + text + "\n"), T)
     events = Events(scene, limits_of(scene), EGO)
     formula = asserted(scene.program.constraints[-1].formula, scene.program)
-    return events, list(narrowings_of(Lowering(events), formula))
+    return events, list(Lowering(events).narrowings_of(formula))
 
 
 @pytest.mark.parametrize(

@@ -16,9 +16,9 @@ from scenewright.motion.limits import limits_on
 from scenewright.program.text import parse_program
 from scenewright.roads.grounding import ground
 from scenewright.roads.load import load_map
+from scenewright.solve.proofs.bends import bound_in_bend
 from scenewright.solve.proofs.events import EgoBounds, Events
 from scenewright.solve.proofs.lowering import Lowering
-from scenewright.solve.proofs.refinement import Refinement
 from scenewright.solve.proofs.refuters import SOLVERS, clashing
 from scenewright.solve.proofs.relaxation import EVEN_RATE, relaxation
 
@@ -78,9 +78,9 @@ def passing_s(motion: Motion, place_m: float, end_s: float) -> float:
 def check_planted(planted: Planted) -> int:
     """Check that all formulas are true of the motions; return how many bounds there are on speeds in bends."""
     events, lowering = lowered(planted.scene())
-    more, constraints = Refinement(events, lowering), events.scene.program.constraints
-    more.bound_in_bend(1, [each.formula for each in lowering.lower(constraints)])
-    formulas = relaxation(events, [*lowering.narrowings, *more.narrowings], lowering.lower(constraints))
+    constraints = events.scene.program.constraints
+    bound_in_bend(events, 1, [each.formula for each in lowering.lower(constraints)])
+    formulas = relaxation(events, lowering.narrowings, lowering.lower(constraints))
     point = values_of(planted, events, lowering)
     for unknown, value in zip(events.unknowns, point, strict=True):
         assert float(unknown.low) - 1e-6 <= value <= float(unknown.high) + 1e-6, unknown

@@ -1,42 +1,33 @@
 """Proof, witness or undecided: whether a scenario can happen with any ego that keeps its promises.
 
-What enters: a scene and bounds on everybody's motion. What leaves: a `Decision`. Search and proof are two engines over
-one lowering: Newton steps find nearly all witnesses in a few milliseconds, a solver is left with refutations. What is
-found is realised and looked at by an evaluator of its own before it is called feasible.
+What enters: a question. What leaves: a `Decision`. Search and proof are two engines over one lowering: Newton steps
+find nearly all witnesses in a few milliseconds, a solver is left with refutations.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
-from fractions import Fraction
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from scenewright.algebra.polynomials import ZERO, Formula, Named, Unknown, origins_of, resting_on
-from scenewright.motion.limits import Limits
-from scenewright.motion.profile import Profile
+from scenewright.algebra.polynomials import Named, Unknown, origins_of, resting_on
 from scenewright.program.magnitudes import LONGEST_S
-from scenewright.program.structure import Structure, actors_of
-from scenewright.program.types import EGO, Constraint
-from scenewright.roads.grounding import Scene
-from scenewright.solve.proofs.apart import apart
-from scenewright.solve.proofs.crowding import crowded
-from scenewright.solve.proofs.events import EgoBounds, Events
+from scenewright.program.structure import actors_of
+from scenewright.program.types import EGO
+from scenewright.solve.proofs.apart import crowded
 from scenewright.solve.proofs.guesses import carried_over, first_guess
-from scenewright.solve.proofs.lowering import Lowering
-from scenewright.solve.proofs.refinement import Refinement
-from scenewright.solve.proofs.refuters import SOLVERS, Refuter, answer_of, clashing
-from scenewright.solve.proofs.relaxation import relaxation
-from scenewright.solve.proofs.search import Search
+from scenewright.solve.proofs.refinement import Case, Question
+from scenewright.solve.proofs.refuters import answer_of, clashing
 from scenewright.solve.proofs.witness import Broken, Witness, broken, realised
+
+__all__ = ["Decision", "Question", "decide", "shown"]
 
 Array = NDArray[np.float64]
 _ROUNDS = 14  # how often one motion is mended before another is looked for
-_GUESSES = (4, 12, 1000)  # how many first guesses are tried before each time that a proof is looked for
-_PROOF_S = (0.15, 0.4, 0.1)
+_TRIES = (4, 0.15), (12, 0.4), (1000, 0.1)  # how many first guesses are tried, and how long (s) a proof is looked for
 # How much a search does in what is called a second here. No clock is asked: answers are the same on any machine.
 _WORK_PER_S = 4_000_000
 _RANGES = {
@@ -52,16 +43,9 @@ _PLAIN = 4  # so many guesses owe the manner; a motion that looks like nothing i
 class Decision:
     """Whether a scenario can happen.
 
-    Attributes
-    ----------
-    answer
-        ``feasible`` with a `witness`, ``infeasible`` with a `core` of origins that clash, or ``undecided``.
-    left_out
-        Constraints that the answer does not rest on, by id, and why.
-    amiss
-        What was still amiss with the best motion found, where undecided.
-    doubted_by
-        The solver that found it infeasible, where undecided because what that solver refutes is no proof.
+    It is ``feasible`` with a `witness`, ``infeasible`` with a `core` of origins that clash, or ``undecided``: then
+    `amiss` tells what still was with the best motion found, and `doubted_by` which solver refutes it, to which that is
+    no proof. It does not rest on the constraints that are `left_out`, by id, and why.
     """
 
     answer: Literal["feasible", "infeasible", "undecided"]
@@ -76,94 +60,30 @@ class Decision:
             raise ValueError("what is feasible has a witness, nothing else has one")
 
 
-@dataclass(frozen=True, slots=True)
-class Question:
-    """What is asked: a scene, who is bounded how; what is freed, or how the ego drove, where that matters; of whom.
-
-    Of those who are `bending` proofs take into account how fast their bends can be driven.
-    """
-
-    scene: Scene
-    structure: Structure
-    limits: Mapping[int, Limits]
-    ego: EgoBounds = field(default_factory=EgoBounds)
-    freed: Mapping[str, tuple[Fraction, Fraction]] = field(default_factory=dict)
-    drive: Profile | None = None
-    refuter: Refuter = field(default_factory=lambda: SOLVERS.called("z3"))
-    bending: frozenset[int] = frozenset()
-
-    def constraints(self) -> tuple[Constraint, ...]:
-        """Return the constraints to be met; what the ego did alone is a fact, where its drive is given."""
-        found = self.scene.program.constraints
-        return tuple(c for c in found if self.drive is None or actors_of(c.formula) != {EGO})
-
-
-class _Case:
-    """One scene's events with what was added to them, grown as motions show the need."""
-
-    def __init__(self, question: Question, *, plan: bool = False, plain: bool = False) -> None:
-        self.events = Events(question.scene, question.limits, question.ego, question.drive, question.freed)
-        self.lowering = Lowering(self.events, Fraction(1) if question.drive else ZERO)
-        self.constraints = question.constraints()
-        self._sizes = (0, 0)
-        self.lowered: list[Named] = []
-        self.lower()
-        self.events.rules += apart(self.events, question.structure, self.constraints)
-        self.more = Refinement(self.events, self.lowering)
-        if plan:
-            self.more.lasting_rates()
-        for actor in question.bending:
-            self.more.bound_in_bend(actor, [each.formula for each in self.lowered])
-        if plain:
-            self.more.manner()
-
-    def lower(self) -> None:
-        """Lower the constraints over the moments that there are now, if there are more of them."""
-        sizes = len(self.events.times), len(self.events.states)
-        if sizes != self._sizes:
-            self.lowered, self._sizes = self.lowering.lower(self.constraints), sizes
-
-    def formulas(self) -> list[Formula]:
-        """Return all that a plan owes."""
-        bends = [each for bend in sorted(self.more.turning) for each in self.more.in_bend(*bend, planned=True)]
-        return [*(each.formula for each in (*self.lowered, *self.events.rules, *bends)), *self.more.owed]
-
-    def search(self) -> Search:
-        """Return a search over what there is now."""
-        self.lower()
-        return Search(self.events, self.formulas(), [*self.lowering.narrowings, *self.more.narrowings])
-
-    def relaxation(self) -> list[Named]:
-        """Return what a refutation rests on."""
-        self.lower()
-        return relaxation(self.events, [*self.lowering.narrowings, *self.more.narrowings], self.lowered)
-
-
 def decide(question: Question, limit_s: float = 2.0, explain: bool = True) -> Decision:
     """Look for a witness and for a proof in turn until there is one of them, or enough has been done.
 
     Open parameters are free within their ranges. With `explain` a proof comes with its core. Against one drive of the
     ego only a proof is looked for: what might have been is nobody's plan.
     """
-    plain = _Case(question)
+    plain = Case(question)
     left_out = {each.origin: each.refused for each in plain.lowered if each.refused}
     if question.drive is None and (crowd := crowded(plain.events, plain.lowered)):
         return Decision("infeasible", core=crowd, left_out=left_out)
-    hunt, asked, case = _Hunt(question, int(limit_s * _WORK_PER_S)), question, plain
-    posed: tuple[Sequence[Unknown], Sequence[Named]] | None = None  # most witnesses need none
-    for guesses, proof_s in zip(_GUESSES, _PROOF_S, strict=True):
+    hunt, asked, posed = _Hunt(question, int(limit_s * _WORK_PER_S)), question, None  # most witnesses need none posed
+    for guesses, proof_s in _TRIES:
         if not left_out and question.drive is None and (found := hunt.witness(guesses)) is not None:
             return Decision("feasible", found)
         turning = question.bending.union(each.actor for each in hunt.amiss if each.what == "turn")
         if posed is not None and turning != asked.bending:  # what needs no bends is easier
             asked = replace(question, bending=turning)
-            case, posed = _Case(asked), None
-        posed = posed or (case.events.unknowns, case.relaxation())
+            posed = Case(asked).posed()
+        posed = posed or plain.posed()
         refuter = question.refuter
         if answer_of(refuter, *posed, min(proof_s, limit_s)).kind == "refuted":
             if not refuter.capabilities.exact:
                 return Decision("undecided", left_out=left_out, amiss=hunt.amiss, doubted_by=refuter.name)
-            return Decision("infeasible", core=_core(asked, *posed) if explain else (), left_out=left_out)
+            return Decision("infeasible", core=_core(asked) if explain else (), left_out=left_out)
     return Decision("undecided", left_out=left_out, amiss=hunt.amiss)
 
 
@@ -190,19 +110,18 @@ class _Hunt:
         """Return a witness, at first only one in the program's manner; None where so many guesses find none."""
         last = self.tried + guesses
         while self.tried < last and self.left > 0:
-            found = self._mended(_Case(self.question, plan=True, plain=self.tried < _PLAIN))
+            found = self._mended(Case(self.question, plan=True, manner=self.tried < _PLAIN))
             self.tried += 1
             if found is not None:
                 return found
         return None
 
-    def _mended(self, case: _Case) -> Witness | None:
+    def _mended(self, case: Case) -> Witness | None:
         """Search from a guess, and mend what is amiss with what is found until nothing is, or nothing helps."""
         generator = self.generator if self.tried else None
         guess = first_guess(case.events, case.formulas(), generator)
         for _ in range(_ROUNDS):
             search = case.search()
-            guess = np.append(guess, np.zeros(len(case.events.unknowns) - len(guess)))  # rates at new moments
             point = search.run(guess, generator)
             self.left -= search.work
             if point is None:
@@ -212,14 +131,13 @@ class _Hunt:
             self.amiss = tuple(broken(asked.scene, asked.structure, asked.limits, asked.ego, witness))
             if not self.amiss:
                 return witness
-            if self.left <= 0 or not case.more.mend(self.amiss, witness):
+            if self.left <= 0 or not case.mend(self.amiss, witness):
                 return None
-            case.lower()
             guess = carried_over(case.events, point, witness)
         return None
 
 
-def _core(question: Question, unknowns: Sequence[Unknown], formulas: Sequence[Named]) -> tuple[str, ...]:
+def _core(question: Question) -> tuple[str, ...]:
     """Return what clashes, and which ranges of single numbers it takes for that.
 
     Formulas are made with what all constraints say of the order of moments, and of who is who's moment: whether some
@@ -227,8 +145,7 @@ def _core(question: Question, unknowns: Sequence[Unknown], formulas: Sequence[Na
     """
     refuter, told = question.refuter, [constraint.id for constraint in question.constraints()]
     kept = clashing(refuter, told, lambda names: _posed(question, names))
-    if kept != told:
-        unknowns, formulas = _posed(question, kept)
+    unknowns, formulas = _posed(question, kept)
     origins = [origin for origin in origins_of(formulas) if origin not in kept]
     laws = clashing(refuter, origins, lambda laws: (unknowns, resting_on(formulas, (*kept, *laws))))
     rests_on, ranges = resting_on(formulas, (*kept, *laws)), []
@@ -248,10 +165,8 @@ def _tops(question: Question, kept: Collection[str]) -> str:
     return ", ".join(f"{program.actor(actor).name} 0 to {tops[actor]:.4g} m/s" for actor in sorted(told or tops))
 
 
-def _posed(question: Question, kept: Collection[str]) -> tuple[Sequence[Unknown], Sequence[Named]]:
+def _posed(question: Question, kept: Collection[str]) -> tuple[list[Unknown], list[Named]]:
     """Return unknowns and formulas of some of the constraints alone."""
     program = question.scene.program
     fewer = replace(program, constraints=tuple(c for c in program.constraints if c.id in kept))
-    case = _Case(replace(question, scene=replace(question.scene, program=fewer)))
-    formulas = case.relaxation()
-    return case.events.unknowns, formulas
+    return Case(replace(question, scene=replace(question.scene, program=fewer))).posed()

@@ -1,13 +1,12 @@
 """The moments of a scenario, and everybody's state there, as unknowns: what proofs and searches are about.
 
-What enters: a scene, who is bounded how, and what is asked for as constraints are lowered: a knot, a concrete time, a
-moment of somebody else. What leaves: instants with their times, states of actors at instants, the law on every
-piece of an actor's way, and what is certain of the order of instants. It holds no constraint of the program.
+What enters: a scene, who is bounded how, and what is asked for as constraints are lowered. What leaves: instants with
+their times, states of actors at instants, the law on every piece of an actor's way. It holds no constraint.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from itertools import pairwise
@@ -26,11 +25,11 @@ from scenewright.algebra.polynomials import (
 from scenewright.motion.laws import Law
 from scenewright.motion.limits import Limits
 from scenewright.motion.profile import Profile
+from scenewright.program import expressions as ex
 from scenewright.program.magnitudes import LONGEST_S
-from scenewright.program.structure import KnotKey, read_structure
+from scenewright.program.structure import read_structure
 from scenewright.program.types import EGO, Actor, PieceKind
 from scenewright.roads.grounding import Scene
-from scenewright.solve.proofs.narrowing import Narrowing
 from scenewright.translate.phrases import does
 from scenewright.units import pin
 
@@ -65,6 +64,35 @@ class State:
     speed: Polynomial
 
 
+@dataclass(frozen=True, slots=True)
+class Narrowing:
+    """A narrower law for an actor between two instants: that of a piece, or what a constraint makes of it.
+
+    A plan keeps to its `law`. What every legal motion keeps to is `proven`, if anything: that the rate of a piece lasts
+    all through it is for plans, what is proven of a piece is proven of its mean rate.
+    """
+
+    actor: int
+    first: int
+    last: int
+    law: Law
+    proven: Law | None = None
+    place: int | None = None  # the moment at a place that it holds from, or up to, within first and last
+    place_m: Fraction = ZERO
+    up_to_place: bool = False
+    even: bool = False  # whether a plan keeps to one rate between each two moments
+    origin: str = ""  # the constraint that it comes from, by id; of a piece what it is, in words
+    said: ex.Formula | None = None  # what it makes superfluous between its ends
+
+    def begins(self) -> tuple[int, ...]:
+        """Return the moments of which the latest is its beginning."""
+        return (self.first,) if self.place is None or self.up_to_place else (self.first, self.place)
+
+    def ends(self) -> tuple[int, ...]:
+        """Return the moments of which the earliest is its end."""
+        return (self.last, self.place) if self.place is not None and self.up_to_place else (self.last,)
+
+
 @dataclass(slots=True)
 class Events:
     """The unknowns of one scene. Instants, states and rates are made when they are first asked for."""
@@ -75,7 +103,7 @@ class Events:
     drive: Profile | None = None  # how the ego really drove: to ask whether any hero could have done better
     freed: Mapping[str, tuple[Fraction, Fraction]] = field(default_factory=dict)
     unknowns: list[Unknown] = field(default_factory=list)
-    times: list[Polynomial] = field(default_factory=list)
+    times: list[Polynomial] = field(default_factory=lambda: [polynomial(ZERO)])  # of instants; the first is the start
     states: dict[tuple[int, int], State] = field(default_factory=dict)
     pieces: list[Narrowing] = field(default_factory=list)  # those in which somebody does not move freely
     rules: list[Named] = field(default_factory=list)
@@ -84,9 +112,7 @@ class Events:
     defined: dict[int, Polynomial] = field(default_factory=dict)
     places: dict[tuple[int, Fraction], int] = field(default_factory=dict)  # when an actor passes one
     ahead: dict[tuple[int, int], None] = field(default_factory=dict)  # instants, the earlier first
-    instant_of: dict[tuple[int, ...], int] = field(default_factory=dict)  # by its unknown
     _knots: dict[tuple[int, str], int] = field(default_factory=dict)
-    _clock: dict[Fraction, int] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         for name, value in self.scene.parameters.items():
@@ -96,7 +122,6 @@ class Events:
             self.parameters[parameter.name] = self.new(f"p_{parameter.name}", low, high, "other")
         for name, (low, high) in self.freed.items():
             self.parameters[name] = self.new(f"p_{name}", low, high, "other")
-        self.start = self.clock(ZERO)
         self._name_knots()
         for actor in self.scene.program.actors:
             self._lay_out(actor)
@@ -110,25 +135,19 @@ class Events:
     def instant(self, name: str) -> int:
         """Return a new instant, at a time that is to be found."""
         self.times.append(self.new(f"T_{name}", ZERO, LONGEST_S, "time"))
-        self.instant_of[(len(self.unknowns) - 1,)] = len(self.times) - 1
         return len(self.times) - 1
 
-    def clock(self, time_s: Fraction) -> int:
-        """Return the instant of a concrete time."""
-        if time_s not in self._clock:
-            self.times.append(polynomial(time_s))
-            self._clock[time_s] = len(self.times) - 1
-        return self._clock[time_s]
-
-    def moment(self, time: Polynomial, name: str) -> int:
-        """Return the instant of a time that depends on others; the start where it would be before it."""
-        constant = time.constant
-        if constant is not None:
-            return self.clock(max(ZERO, constant))
+    def moment(self, time: Polynomial) -> int:
+        """Return the instant of a time, which may depend on others; the start where it would be before it."""
+        if (constant := time.constant) is not None:
+            time = polynomial(max(ZERO, constant))
         for number, known in (*enumerate(self.times), *self.defined.items()):
             if known.terms == time.terms:
                 return number
-        made = self.instant(name)
+        if constant is not None:
+            self.times.append(time)
+            return len(self.times) - 1
+        made = self.instant("told")
         self.defined[made] = time
         mine = self.times[made]
         words = "an interval begins and ends when it is said to"
@@ -182,6 +201,7 @@ class Events:
     def _name_knots(self) -> None:
         """Give every knot its instant: the first ones are the start, synchronised ones are one."""
         program = self.scene.program
+        driven_s = self.drive.knot_times_s if self.drive is not None else {}
         starts = {(actor.id, actor.sketch.knots[0]) for actor in program.actors}
         instants = [group | starts if group & starts else group for group in read_structure(program).instants]
         for actor in program.actors:
@@ -189,15 +209,12 @@ class Events:
                 key = (actor.id, knot)
                 if key not in self._knots:
                     group = next((group for group in [*instants, starts] if key in group), {key})
-                    made = self.start if group >= starts else self._driven(group)
-                    made = self.instant(f"{actor.name}_{knot}") if made is None else made
+                    told_s = [driven_s[name] for owner, name in group if owner == EGO and name in driven_s]
+                    if group >= starts or told_s:
+                        made = self.start if group >= starts else self.moment(polynomial(pin(told_s[0])))
+                    else:
+                        made = self.instant(f"{actor.name}_{knot}")
                     self._knots |= dict.fromkeys(group, made)
-
-    def _driven(self, keys: Collection[KnotKey]) -> int | None:
-        """Return the instant of knots of which the ego's drive tells the time; None where it does not."""
-        known = self.drive.knot_times_s if self.drive is not None else {}
-        found = [known[name] for actor, name in keys if actor == EGO and name in known]
-        return self.clock(pin(found[0])) if found else None
 
     def _lay_out(self, actor: Actor) -> None:
         """Put a law on each piece of an actor's way in which it does not move freely."""

@@ -1,7 +1,6 @@
 """First guesses for a search: when moments are and where everybody is then, as far as the constraints tell at a glance.
 
-What enters: events and constraints lowered over them. What leaves: a value for each unknown. A guess need not be
-possible: the search mends it. Later guesses are drawn, not made.
+What enters: events and constraints lowered over them. What leaves: a value for each unknown, which the search mends.
 """
 
 from __future__ import annotations
@@ -12,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scenewright.algebra.polynomials import Atom, Formula, Unknown, conjuncts
-from scenewright.solve.proofs.events import Events, State
+from scenewright.solve.proofs.events import Events
 from scenewright.solve.proofs.order import tightened
 from scenewright.solve.proofs.witness import Witness
 
@@ -35,35 +34,28 @@ def first_guess(events: Events, formulas: Sequence[Formula], generator: np.rando
     point[list(told)] = list(told.values())
     times = _times(events, ranges, point, speed, draw)
     point[[n for state in events.states.values() if (n := state.speed.number) not in told]] = speed
-    anchors = {
-        actor.id: {
-            times[k]: told[state.place.number]
-            for k in events.instants_of(actor.id)
-            if (state := events.state(actor.id, k)).place.number in told
-        }
-        for actor in events.scene.program.actors
-    }
+    places: dict[int, dict[int, float]] = {actor: {} for actor in events.scene.routes}  # of whom, and when (s)
+    for (actor, instant), state in events.states.items():
+        places[actor][state.place.number] = times[instant]
+    anchors = {who: {at_s: told[n] for n, at_s in own.items() if n in told} for who, own in places.items()}
     told = told | {n: each for n, each in enumerate(point.tolist()) if events.unknowns[n].kind != "place"}
     equal = [part for part in conjuncts(formulas) if isinstance(part, Atom) and part.relation == "=="]
     for actor in sorted(anchors, key=lambda actor: not anchors[actor]):
-        states = [(times[k], events.state(actor, k)) for k in events.instants_of(actor)]
-        beside = anchors[actor] or _beside(states, equal, told)
+        beside = anchors[actor] or _beside(places[actor], equal, told)
         if not beside:
             stop_line = events.scene.landmarks_m[actor].get("stop_line", 80.0)
-            beside = {min(at_s for at_s, _ in states): max(5.0, stop_line - _BEFORE_STOP_LINE_M)}
-        for now_s, state in states:
-            if (number := state.place.number) not in told:
+            beside = {min(places[actor].values()): max(5.0, stop_line - _BEFORE_STOP_LINE_M)}
+        for number, now_s in places[actor].items():
+            if number not in told:
                 since_s = min(beside, key=lambda at_s: abs(at_s - now_s))
                 point[number] = beside[since_s] + speed * (now_s - since_s)
                 told[number] = point[number]
     return point
 
 
-def _beside(
-    states: Iterable[tuple[float, State]], equal: Iterable[Atom], told: Mapping[int, float]
-) -> dict[float, float]:
+def _beside(places: Mapping[int, float], equal: Iterable[Atom], told: Mapping[int, float]) -> dict[float, float]:
     """Return where somebody is at moments (s) of which a comparison with what is `told` says it."""
-    found, places = dict[float, float](), {state.place.number: at_s for at_s, state in states}
+    found = dict[float, float]()
     for part in equal:
         free = {number for key in part.left.terms for number in key} - told.keys()
         if len(free) == 1 and (number := free.pop()) in places:

@@ -1,8 +1,7 @@
 """Lowers a program's constraints to formulas over the states of actors at moments: every form that can be written.
 
-What enters: `Events` and the constraints. What leaves: for each constraint a formula that every motion satisfies which
-the judge would accept (what a proof may rest on), and what a plan owes besides: rates that last, narrower laws. What is
-of too high a degree is named; a proof may leave it out, a plan may not.
+What enters: `Events` and the constraints. What leaves: for each a formula that every motion satisfies which the judge
+would accept, and narrower laws. What is of too high a degree is named; a proof may leave it out, a plan may not.
 """
 
 from __future__ import annotations
@@ -14,6 +13,7 @@ from fractions import Fraction
 from itertools import product
 
 from scenewright.algebra.polynomials import (
+    FALSE,
     ONE,
     TRUE,
     ZERO,
@@ -26,27 +26,27 @@ from scenewright.algebra.polynomials import (
     polynomial,
     some,
 )
+from scenewright.motion.laws import ANY, Law
 from scenewright.program import expressions as ex
 from scenewright.program.types import EGO, Constraint
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
-from scenewright.solve.proofs.events import Events
+from scenewright.solve.proofs.events import Events, Narrowing
 from scenewright.solve.proofs.forms import TIGHT, actors_at, asserted, compared_dimension, free_actors
-from scenewright.solve.proofs.narrowing import Narrowing, narrowings_of
 from scenewright.solve.proofs.order import least_value
 from scenewright.units import pin
 
 MEAN_RATE = "the rate of a piece is by how much the speed changes in it, over how long it lasts"
+_RATE_ROOM_MPSS = Fraction(1, 1000)  # for numbers that were rounded; half of what a witness may be off
 RATE_LASTS_S = Fraction(1, 20)  # a rate at a moment is that of so much motion from there on
 
 
 @dataclass(frozen=True, slots=True)
 class Case:
-    """A value as a quotient, where `given` holds. `endless` where it is longer than any time if it has no value."""
+    """A value as a quotient, where `given` holds: longer than any time where it has none."""
 
     top: Polynomial
     below: Polynomial
     given: Formula = TRUE
-    endless: bool = False
 
 
 @dataclass(slots=True)
@@ -73,14 +73,14 @@ class Lowering:
         for constraint, formula in zip(constraints, formulas, strict=True):
             with suppress(TooHigh):  # told below
                 self._make_moments(formula)
-                self.narrowings += (replace(each, origin=constraint.id) for each in narrowings_of(self, formula))
-        return [self._lowered(*each) for each in zip(constraints, formulas, strict=True)]
-
-    def _lowered(self, constraint: Constraint, formula: ex.Formula) -> Named:
-        try:
-            return Named(self.formula(formula, None), constraint.id)
-        except TooHigh as why:
-            return Named(TRUE, constraint.id, refused=str(why))
+                self.narrowings += (replace(each, origin=constraint.id) for each in self.narrowings_of(formula))
+        found = list[Named]()
+        for constraint, formula in zip(constraints, formulas, strict=True):
+            try:
+                found.append(Named(self.formula(formula, None), constraint.id))
+            except TooHigh as why:
+                found.append(Named(TRUE, constraint.id, refused=str(why)))
+        return found
 
     # -- moments ------------------------------------------------------------------------------------------------------
     def _make_moments(self, formula: ex.Formula) -> None:
@@ -104,49 +104,38 @@ class Lowering:
         return None if least_value(ends, self.events.unknowns) >= 0 else ends
 
     def _time(self, term: ex.Term) -> Polynomial:
-        top, below = self.plain(term)
-        if not below.constant:
+        case, *_ = self.term(term, None)
+        if not case.below.constant:
             raise TooHigh("it is of a stretch of time that begins or ends at a quotient of unknowns")
-        return top if below.constant == 1 else top * (1 / below.constant)
-
-    def plain(self, term: ex.Term) -> tuple[Polynomial, Polynomial]:
-        """Return a term in which nobody's order matters as numerator and denominator."""
-        cases = self.term(term, None)
-        return cases[0].top, cases[0].below
+        return case.top * (1 / case.below.constant)
 
     def _instant(self, at: ex.At | ex.Term, owner: int = EGO) -> int:
         """Return the instant that a knot of its owner, or a term for a time, stands for."""
         match at:
             case ex.Knot(name=name):
                 return self.events.knot(owner, name)
-            case ex.Elapsed(actor=actor, knot=knot):
-                return self.events.knot(actor, knot)
             case None | ex.PieceRef():
                 raise TypeError(f"not a moment: {at!r}")
-        return self.events.moment(self._time(at), "told")
+        return self.events.moment(self._time(at))
 
     # -- formulas -----------------------------------------------------------------------------------------------------
     def formula(self, formula: ex.Formula, now: int | None) -> Formula:
         """Return `formula` over the states of moments; `now` is the instant at which a body is looked at."""
         match formula:
-            case ex.Compare():
-                return self._compare(formula, now)
+            case ex.Compare(left=left, right=right):
+                pairs = product(self.term(left, now), self.term(right, now))
+                return some([every([a.given, b.given, self._related(formula, a, b)]) for a, b in pairs])
             case ex.Logic(operator="and", operands=operands):
                 return every([self.formula(operand, now) for operand in operands])
             case ex.Logic(operator="or", operands=operands):
                 return some([self.formula(operand, now) for operand in operands])
-            case ex.Temporal(operator="always", body=body):
-                held, early = self._always(*self.stretch_of(formula), body), self.ends_early(formula)
-                return held if early is None else some([compare("<", early, ZERO), held])
-            case ex.Temporal(operator="eventually", body=body):
-                happens, early = self._eventually(*self.stretch_of(formula), body), self.ends_early(formula)
-                return happens if early is None else every([compare(">=", early, ZERO), happens])
+            case ex.Temporal(operator=("always" | "eventually") as operator, body=body):
+                ends, early = self.stretch_of(formula), self.ends_early(formula) or ZERO
+                if operator == "always":
+                    return some([compare("<", early, ZERO), self._always(*ends, body)])
+                return every([compare(">=", early, ZERO), self._eventually(*ends, body)])
             case _:
                 raise TypeError(f"not an asserted formula: {formula!r}")
-
-    def _compare(self, formula: ex.Compare, now: int | None) -> Formula:
-        pairs = product(self.term(formula.left, now), self.term(formula.right, now))
-        return some([every([a.given, b.given, self._related(formula, a, b)]) for a, b in pairs])
 
     def _related(self, formula: ex.Compare, left: Case, right: Case) -> Formula:
         if formula.operator != "==" or not self.slack:
@@ -183,30 +172,24 @@ class Lowering:
             case ex.Arithmetic():
                 pairs = product(self.term(term.left, now), self.term(term.right, now))
                 cases = [self._arithmetic(term, *pair) for pair in pairs]
-                if term.operator != "/":
+                if term.operator != "/" or (isinstance(term.right, ex.State) and term.right.order == 1):
                     return cases
-                if isinstance(term.right, ex.State) and term.right.order == 1:
-                    return [replace(case, endless=True) for case in cases]
                 return list(_either_sign(cases))
             case _:
                 raise TypeError(f"not a term: {term!r}")
 
     def _arithmetic(self, term: ex.Arithmetic, left: Case, right: Case) -> Case:
-        given, endless = every([left.given, right.given]), left.endless or right.endless
+        given = every([left.given, right.given])
         if term.operator in ("+", "-"):
             other = right.top if term.operator == "+" else -right.top
             if left.below.terms == right.below.terms:
                 top, below = left.top + other, left.below
             else:
                 top, below = left.top * right.below + other * left.below, left.below * right.below
-            return Case(top, below, given, endless)
+            return Case(top, below, given)
         if term.operator == "*":
-            return Case(left.top * right.top, left.below * right.below, given, endless)
-        top, below = left.top * right.below, left.below * right.top
-        size = below.constant
-        if size is not None and size < 0:
-            top, below = -top, -below
-        return Case(top, below, given, endless)
+            return Case(left.top * right.top, left.below * right.below, given)
+        return Case(left.top * right.below, left.below * right.top, given)
 
     def _derived(self, term: ex.Derived, now: int | None) -> list[Case]:
         """Return a distance of two, or a quotient of one and a speed; all but a gap are between bodies."""
@@ -215,7 +198,7 @@ class Lowering:
         assert instant is not None
         mine = events.state(term.actor, instant)
         if isinstance(term.target, ex.Landmark):
-            return [Case(self._landmark(term.target) - mine.place, mine.speed, endless=True)]
+            return [Case(self._landmark(term.target) - mine.place, mine.speed)]
         other = events.state(term.target, instant)
         gap = other.place + pin(scene.offset_m(term.actor, term.target)) - mine.place
         if term.kind == "gap":
@@ -224,11 +207,11 @@ class Lowering:
         if term.kind == "freespace":
             return [_case(gap - body)]
         if term.kind == "headway":
-            return [Case(gap - body, mine.speed, endless=True)]
+            return [Case(gap - body, mine.speed)]
         closing = mine.speed - other.speed
         return [
-            Case(gap - body, closing, compare(">=", gap, ZERO), endless=True),
-            Case(-gap - body, -closing, compare("<", gap, ZERO), endless=True),
+            Case(gap - body, closing, compare(">=", gap, ZERO)),
+            Case(-gap - body, -closing, compare("<", gap, ZERO)),
         ]
 
     def _landmark(self, mark: ex.Landmark) -> Polynomial:
@@ -267,6 +250,70 @@ class Lowering:
         """Return the instants at which a piece begins and ends."""
         begins, ends = self.events.scene.program.actor(actor).sketch.piece_ends(piece)
         return self.events.knot(actor, begins), self.events.knot(actor, ends)
+
+    # -- narrower laws ------------------------------------------------------------------------------------------------
+    def narrowings_of(self, formula: ex.Formula) -> Iterator[Narrowing]:
+        """Yield the laws that bounds on a speed or a rate over a stretch of time make narrower.
+
+        What is past a place or else bounded, is bounded up to there. Other forms are held at moments alone.
+        """
+        match formula:
+            case ex.Logic(operator="and", operands=operands):
+                for operand in operands:
+                    yield from self.narrowings_of(operand)
+            case ex.Temporal(operator="always", body=ex.Logic(operator="and", operands=operands)):
+                for operand in operands:
+                    yield from self.narrowings_of(replace(formula, body=operand))
+            case ex.Temporal(operator="always", body=body):
+                past, then = body.operands if isinstance(body, ex.Logic) and len(body.operands) == 2 else (None, body)
+                early, law, place = self.ends_early(formula), self._law_of(then), self._place_of(past) if past else None
+                if law is None or (early is not None and early.constant is not None):  # it was over before the start
+                    return
+                (actor, bound), ends = law, self.stretch_of(formula)
+                proven = bound if early is None else None
+                if past is None:
+                    yield Narrowing(actor, *ends, bound, proven, said=body)
+                elif place and place[0] == actor:
+                    made = self.events.at_place(*place[:2])
+                    yield Narrowing(actor, *ends, bound, proven, made, *place[1:])
+            case ex.Compare() if (node := ex.piece_of(formula)) is not None and isinstance(node.at, ex.PieceRef):
+                ends = self.piece_ends(node.actor, node.at.name)
+                if formula.operator == "==":  # a rate that is one number is one all through
+                    yield Narrowing(node.actor, *ends, ANY, even=True)
+                if law := self._law_of(ex.at_each_moment(formula, node)):
+                    yield Narrowing(law[0], *ends, law[1])
+
+    def _law_of(self, body: ex.Formula) -> tuple[int, Law] | None:
+        """Return whose law a body bounds and how, where it compares a speed or a rate with a number."""
+        match body:
+            case ex.Compare(operator, ex.State(order=(1 | 2) as order, at=None, actor=actor), right):
+                pass
+            case ex.Compare(operator, right, ex.State(order=(1 | 2) as order, at=None, actor=actor)):
+                operator = ex.FLIPPED[operator]
+            case _:
+                return None
+        if (bound := self._constant(right)) is None:
+            return None
+        room, name = (_RATE_ROOM_MPSS, "rate") if order == 2 else (ZERO, "speed")
+        bounds = {} if operator in ("<", "<=") else {f"{name}_low": bound - room}
+        bounds |= {} if operator in (">", ">=") else {f"{name}_high": bound + room}
+        return actor, replace(ANY, **bounds)
+
+    def _place_of(self, formula: ex.Formula) -> tuple[int, Fraction, bool] | None:
+        """Return actor and place (m) of "is past a place" (True) or "is before it"; None for anything else."""
+        match formula:
+            case ex.Compare("<=" | "<" | ">=" | ">", ex.State(order=0, at=None, actor=actor), place):
+                found = self._constant(place)
+                return None if found is None else (actor, found, formula.operator in (">", ">="))
+        return None
+
+    def _constant(self, term: ex.Term) -> Fraction | None:
+        """Return the value of a term in which nobody moves; None for one in which somebody does, or that has none."""
+        if any(isinstance(node, ex.State | ex.Derived | ex.Elapsed) for node in ex.walk(term)):
+            return None
+        case, *_ = self.term(term, None)
+        top, below = case.top.constant, case.below.constant
+        return top / below if top is not None and below else None
 
     # -- stretches of time --------------------------------------------------------------------------------------------
     def _always(self, first: int, last: int, body: ex.Formula) -> Formula:
@@ -310,19 +357,16 @@ def _case(value: Polynomial | Fraction) -> Case:
 def _either_sign(quotients: Iterable[Case]) -> Iterator[Case]:
     """Yield quotients as they are, and the other way round: a divisor may be less than nothing, or nothing."""
     for case in quotients:
-        if case.below.constant is not None:
-            yield case
-            continue
         for top, below in ((case.top, case.below), (-case.top, -case.below)):
-            yield Case(top, below, every([case.given, compare(">=", below, ZERO)]), endless=True)
+            given = every([case.given, compare(">=", below, ZERO)])
+            if given != FALSE:
+                yield Case(top, below, given)
 
 
 def _related(operator: str, left: Case, right: Case) -> Formula:
     """Return a comparison of two quotients. One that stands is endlessly far off in time."""
-    conditions = [compare(">", case.below, ZERO) for case in (left, right) if case.below.constant != 1]
+    conditions = [compare(">", case.below, ZERO) for case in (left, right)]
     held = every([*conditions, compare(operator, left.top * right.below, right.top * left.below)])
-    if operator in (">", ">=") and left.endless:
-        return some([compare("<=", left.below, ZERO), held])
-    if operator in ("<", "<=") and right.endless:
-        return some([compare("<=", right.below, ZERO), held])
-    return held
+    if operator == "==":
+        return held
+    return some([compare("<=", (left if operator in (">", ">=") else right).below, ZERO), held])

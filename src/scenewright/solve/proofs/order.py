@@ -95,8 +95,9 @@ def closed(least: Array) -> Array:
 
 def _told(events: Events, linear: Iterable[Atom]) -> Iterator[tuple[int, int, Fraction]]:
     """Yield what is said of two times, or of one that is counted from the start."""
+    instants = {time.number: instant for instant, time in enumerate(events.times) if time.constant is None}
     for part in linear:
-        factors = {events.instant_of.get(key): factor for key, factor in part.left.terms.items() if key}
+        factors = {instants.get(key[0]): factor for key, factor in part.left.terms.items() if key}
         if len(factors) == 1:
             factors[events.start] = -next(iter(factors.values()))
         (early, _), (late, size) = sorted(factors.items(), key=lambda item: item[1])[:: len(factors) - 1]

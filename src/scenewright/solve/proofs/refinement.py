@@ -1,69 +1,124 @@
-"""Adds moments and places to a search where a motion that it found is no witness: never before one shows the need.
+"""What is asked, as a search or a proof takes it: with more moments and places where a motion shows the need.
 
-What enters: what is amiss with a motion. What leaves: more events, formulas that a plan owes, bounds in bends.
-Everything added is true of every witness; what is also true of every legal motion is marked for proofs.
+What enters: a question, and what is amiss with a motion. What leaves: a search, or what a refutation rests on. All
+that a case adds is true of every witness; proofs are given only what is true of every legal motion.
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from itertools import pairwise, product
 
 import numpy as np
 
-from scenewright.algebra.polynomials import ZERO, Formula, Named, compare, some
+from scenewright.algebra.polynomials import ZERO, Formula, Named, Unknown, compare, some
 from scenewright.motion.laws import ANY, Law
-from scenewright.motion.limits import ROOM, calm_mpss
+from scenewright.motion.limits import ROOM, Limits, calm_mpss
+from scenewright.motion.profile import Profile
 from scenewright.program import expressions as ex
 from scenewright.program.evaluate import moments_of_worst
 from scenewright.program.manner import Manner
-from scenewright.program.types import Actor, PieceKind
+from scenewright.program.structure import Structure, actors_of
+from scenewright.program.types import EGO, Actor, Constraint, PieceKind
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
 from scenewright.roads.conflicts import find_conflict
+from scenewright.roads.grounding import Scene
 from scenewright.solve.plan import PlanWorld
-from scenewright.solve.proofs.apart import clear
-from scenewright.solve.proofs.events import Events
+from scenewright.solve.proofs.apart import apart, clear
+from scenewright.solve.proofs.bends import SHARES, around, bound_in_bend, ends_of_bend, in_bend
+from scenewright.solve.proofs.events import EgoBounds, Events, Narrowing
 from scenewright.solve.proofs.forms import asserted, free_actors
 from scenewright.solve.proofs.lowering import RATE_LASTS_S, Lowering
-from scenewright.solve.proofs.narrowing import Narrowing
-from scenewright.solve.proofs.order import places_within
-from scenewright.solve.proofs.soonest import past_bends
-from scenewright.solve.proofs.witness import Array, Broken, Witness, bends
+from scenewright.solve.proofs.refuters import SOLVERS, Refuter
+from scenewright.solve.proofs.relaxation import relaxation
+from scenewright.solve.proofs.search import Search
+from scenewright.solve.proofs.witness import Broken, Witness, bends
 from scenewright.units import pin
 
-SHARES = (0.985, 0.8, 0.6, 0.4, 0.2)
-_SAFETY = 0.999  # rounding of places and speeds within a turn
 _ROOM_M = Fraction(1, 20)
 _STILL_M = Fraction(1, 1000)  # who moves no farther stands, and a search has somewhere to go
 _ROLLS_ON = 10  # who still rolls may roll on: this many metres and m/s for each m/s of its speed bind nobody
 
 
-@dataclass(slots=True)
-class Refinement:
-    """What was added to one search so far."""
+@dataclass(frozen=True, slots=True)
+class Question:
+    """What is asked: a scene, who is bounded how; what is freed, or how the ego drove, where that matters; of whom.
 
-    events: Events
-    lowering: Lowering
-    owed: list[Formula] = field(default_factory=list)
-    narrowings: list[Narrowing] = field(default_factory=list)
-    turning: set[tuple[int, int]] = field(default_factory=set)
+    Of those who are `bending` proofs take into account how fast their bends can be driven.
+    """
 
-    def lasting_rates(self) -> None:
+    scene: Scene
+    structure: Structure
+    limits: Mapping[int, Limits]
+    ego: EgoBounds = field(default_factory=EgoBounds)
+    freed: Mapping[str, tuple[Fraction, Fraction]] = field(default_factory=dict)
+    drive: Profile | None = None
+    refuter: Refuter = field(default_factory=lambda: SOLVERS.called("z3"))
+    bending: frozenset[int] = frozenset()
+
+    def constraints(self) -> tuple[Constraint, ...]:
+        """Return the constraints to be met; what the ego did alone is a fact, where its drive is given."""
+        found = self.scene.program.constraints
+        return tuple(c for c in found if self.drive is None or actors_of(c.formula) != {EGO})
+
+
+class Case:
+    """One scene's events and constraints, lowered, with what was added to them.
+
+    A `plan` owes rates that last, and where it is asked for the `manner` of its program.
+    """
+
+    def __init__(self, question: Question, *, plan: bool = False, manner: bool = False) -> None:
+        self.events = Events(question.scene, question.limits, question.ego, question.drive, question.freed)
+        self.lowering = Lowering(self.events, Fraction(1) if question.drive else ZERO)
+        self.constraints = question.constraints()
+        self.owed, self.narrowings = list[Formula](), list[Narrowing]()
+        self.turning = set[tuple[int, int]]()  # actors, and the places where the bends are that they take
+        self._sizes = (0, 0)
+        self.lower()
+        self.events.rules += apart(self.events, question.structure, self.constraints)
+        if plan:
+            self._lasting_rates()
+        for actor in question.bending:
+            bound_in_bend(self.events, actor, [each.formula for each in self.lowered])
+        if manner:
+            self._manner()
+        self.lower()
+
+    def lower(self) -> None:
+        """Lower the constraints over the moments that there are now, if there are more of them."""
+        sizes = len(self.events.times), len(self.events.states)
+        if sizes != self._sizes:
+            self.lowered, self._sizes = self.lowering.lower(self.constraints), sizes
+
+    def formulas(self) -> list[Formula]:
+        """Return all that a plan owes."""
+        bends = [each for bend in sorted(self.turning) for each in in_bend(self.events, *bend, planned=True)]
+        return [*(each.formula for each in (*self.lowered, *self.events.rules, *bends)), *self.owed]
+
+    def search(self) -> Search:
+        """Return a search over what there is now."""
+        return Search(self.events, self.formulas(), [*self.lowering.narrowings, *self.narrowings])
+
+    def posed(self) -> tuple[list[Unknown], list[Named]]:
+        """Return the unknowns, and what a refutation rests on."""
+        return self.events.unknowns, relaxation(self.events, self.lowering.narrowings, self.lowered)
+
+    # -- what a plan owes ---------------------------------------------------------------------------------------------
+    def _lasting_rates(self) -> None:
         """Let every rate at a moment last for a moment."""
         events = self.events
         for (actor, instant), rate in list(self.lowering.rates.items()):
             knots = [events.knot(actor, name) for name in events.scene.program.actor(actor).sketch.knots]
             ends, now = instant == knots[-1], events.times[instant]
-            lasts = events.moment(now - RATE_LASTS_S if ends else now + RATE_LASTS_S, "lasts")
+            lasts = events.moment(now - RATE_LASTS_S if ends else now + RATE_LASTS_S)
             first, last = (lasts, instant) if ends else (instant, lasts)
             a, b = events.state(actor, first), events.state(actor, last)
             self.owed.append(compare("==", b.speed - a.speed, rate * RATE_LASTS_S))
             self.owed.append(compare("==", (b.place - a.place) * 2, (a.speed + b.speed) * RATE_LASTS_S))
 
-    def manner(self) -> None:
+    def _manner(self) -> None:
         """Let pieces begin where they should, be plain throughout and over at their ends, and turns lie ahead."""
         for actor in self.events.scene.program.heroes:
             self._seen_pieces(actor)
@@ -86,8 +141,8 @@ class Refinement:
             plain = _pulling(kind, kept.begins_mpss)
             self.narrowings.append(Narrowing(actor.id, begins, ends, plain))
             if number and kinds[number - 1] is not PieceKind.STOP:
-                shown = events.moment(events.times[begins] + kept.begins_s, "begins")
-                settled = events.moment(events.times[begins] - kept.settled_s, "settled")
+                shown = events.moment(events.times[begins] + kept.begins_s)
+                settled = events.moment(events.times[begins] - kept.settled_s)
                 for instant in (shown, settled):
                     events.state(actor.id, instant)
                 calm = _not_pulling(kind, calm_mpss(events.scene.program.manner))
@@ -101,7 +156,7 @@ class Refinement:
         """Let what was done in a piece be over for a while; who has come to a standstill stays there."""
         events = self.events
         lasts_s = kept.stands_s if kind is PieceKind.DEC else kept.begins_s
-        over = events.moment(events.times[ends] + lasts_s, "over")
+        over = events.moment(events.times[ends] + lasts_s)
         now, then = events.state(actor, ends), events.state(actor, over)
         self.narrowings.append(Narrowing(actor, ends, over, _not_pulling(kind, ZERO)))
         self.owed += [compare("<=", events.times[over], events.times[knot]) for knot in following]
@@ -109,6 +164,7 @@ class Refinement:
             self.owed.append(compare("<=", then.place - now.place, _STILL_M + now.speed * _ROLLS_ON))
             self.owed.append(compare("<=", then.speed, now.speed * _ROLLS_ON))
 
+    # -- what a motion shows to be missing ----------------------------------------------------------------------------
     def mend(self, broken: Sequence[Broken], witness: Witness) -> bool:
         """Add what each thing amiss asks for; False where nothing can be added."""
         world = PlanWorld(self.events.scene, witness.profiles, witness.parameters)
@@ -128,6 +184,7 @@ class Refinement:
                     if not moments:
                         continue
             added = True
+        self.lower()
         return added
 
     def _look_at(self, node: ex.Temporal, time_s: float, witness: Witness) -> None:
@@ -149,55 +206,22 @@ class Refinement:
         after = min((item for item in known if item[1] > time_s), key=lambda item: item[1], default=None)
         times = self.events.times
         if after is None:
-            return self.events.moment(times[before[0]] + pin(max(0.0, time_s - before[1])), "between")
+            return self.events.moment(times[before[0]] + pin(max(0.0, time_s - before[1])))
         share = Fraction(round(1000 * (time_s - before[1]) / (after[1] - before[1])), 1000)
         early, late = times[before[0]], times[after[0]]
-        return self.events.moment(early + (late - early) * share, "between")
-
-    def in_bend(self, actor: int, peak: int, *, planned: bool) -> Iterator[Named]:
-        """Yield how fast each part of the bend around one place of a route may be driven, at each moment of an actor.
-
-        For proofs the least bend of a part counts, so that every legal motion keeps to it; where it is `planned` a
-        sharper one, so that what keeps to it is legal.
-        """
-        events, (places, sharpness) = self.events, bends(self.events.scene.routes[actor])
-        most_mpss = self.events.limits[actor].lateral_max_mpss
-        words = f"{events.scene.program.actor(actor).name} takes bends at {most_mpss:.3g} m/s^2 sideways at most"
-        for sharper, share in pairwise((1.0, *SHARES)):
-            counts = (sharper if planned else share) * float(sharpness[peak])
-            if most_mpss >= counts * float(events.law_of(actor).speed_high) ** 2:
-                break
-            first_m, last_m = _ends(places, sharpness, peak, share)
-            most = pin(math.sqrt(most_mpss / counts) * (_SAFETY if planned else 1 / _SAFETY))
-            for state in (events.state(actor, instant) for instant in events.instants_of(actor)):
-                elsewhere = [compare("<", state.place, first_m), compare(">", state.place, last_m)]
-                yield Named(some([*elsewhere, compare("<=", state.speed, most)]), words)
-
-    def bound_in_bend(self, actor: int, asked: Sequence[Formula]) -> None:
-        """Say for proofs how fast the sharpest bend of a route can be driven, and how soon one can be past it.
-
-        One who surely drives through it, by what is `asked`, has a moment there.
-        """
-        events, (places, sharpness) = self.events, bends(self.events.scene.routes[actor])
-        peak = int(np.argmax(sharpness))
-        within = {instant: ends for (owner, instant), ends in places_within(events, asked).items() if owner == actor}
-        events.rules += past_bends(events, actor, within)
-        if any(high < places[peak] < low for (_, high), (low, _) in product(within.values(), repeat=2)):
-            events.at_place(actor, pin(float(places[peak])))
-        events.rules += self.in_bend(actor, peak, planned=False)
+        return self.events.moment(early + (late - early) * share)
 
     def _slow_in_turn(self, broken: Broken, witness: Witness) -> None:
         """Keep to a speed in a bend at all moments: one is where it is too fast, and one at either end."""
-        places, sharpness = bends(self.events.scene.routes[broken.actor])
-        here = int(np.searchsorted(places, witness.profiles[broken.actor].state(broken.time_s)[0]))
-        peak = max(_around(sharpness, min(here, len(places) - 1), SHARES[-1]), key=sharpness.__getitem__)
-        if (broken.actor, peak) not in self.turning:
-            self.turning.add((broken.actor, peak))
-            ends = (self.events.at_place(broken.actor, m) for m in _ends(places, sharpness, peak, SHARES[0]))
-            self.events.order(*ends)
-        self.events.state(broken.actor, self._between(broken.time_s, witness))
+        events, actor = self.events, broken.actor
+        places, sharpness = bends(events.scene.routes[actor])
+        here = int(np.searchsorted(places, witness.profiles[actor].state(broken.time_s)[0]))
+        peak = max(around(sharpness, min(here, len(places) - 1), SHARES[-1]), key=sharpness.__getitem__)
+        if (actor, peak) not in self.turning:
+            self.turning.add((actor, peak))
+            events.order(*(events.at_place(actor, m) for m in ends_of_bend(events, actor, peak, SHARES[0])))
+        events.state(actor, self._between(broken.time_s, witness))
 
-    # -- apart --------------------------------------------------------------------------------------------------------
     def _keep_apart(self, broken: Broken, witness: Witness) -> None:
         """Let two that touch be apart at that moment: one before the stretch that both need, or past it, or ahead."""
         events, scene, made = self.events, self.events.scene, self._between(broken.time_s, witness)
@@ -212,18 +236,6 @@ class Refinement:
         else:
             room_m = pin(VEHICLE_LENGTH_M) + clear_m + _ROOM_M
             self.owed += clear(events, broken.other, broken.actor, [made], room_m)
-
-
-def _around(sharpness: Array, place: int, share: float) -> range:
-    """Return the places around one at which a route bends by at least a share of what it does there."""
-    softer = np.flatnonzero(sharpness < share * sharpness[place])
-    begin, end = softer[softer < place].max(initial=-1) + 1, softer[softer > place].min(initial=len(sharpness))
-    return range(int(begin), int(end))
-
-
-def _ends(places: Array, sharpness: Array, peak: int, share: float) -> tuple[Fraction, Fraction]:
-    around = _around(sharpness, peak, share)
-    return pin(float(places[around[0]])), pin(float(places[around[-1]]))
 
 
 def _pulling(kind: PieceKind, rate_mpss: Fraction) -> Law:

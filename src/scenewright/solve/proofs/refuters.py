@@ -2,8 +2,7 @@
 
 What enters: a name. What leaves: a solver that answers whether formulas can hold at once, imported then and not before.
 What clashes is found by asking about fewer: for a core of its own z3 needs another, slower way, which often gets stuck.
-A package offers one by an entry point of the group ``scenewright.solvers``, a class without arguments. What its library
-needs besides is an extra of that package.
+A package offers one by an entry point of the group ``scenewright.solvers``, a class without arguments.
 """
 
 from __future__ import annotations
@@ -15,6 +14,7 @@ from typing import Literal, Protocol
 from scenewright.algebra.polynomials import Named, Unknown, needed
 from scenewright.errors import SolverError
 from scenewright.plugins import Kind
+from scenewright.solve.proofs.order import tightened
 
 GROUP = "scenewright.solvers"
 _OURS = {
@@ -29,16 +29,10 @@ Found = Literal["refuted", "met", "timeout", "unknown"]
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """What a solver says.
+    """What a solver says: ``refuted`` (nothing meets all formulas), ``met``, ``timeout``, ``unknown`` where it gave up.
 
-    Attributes
-    ----------
-    kind
-        ``refuted`` (nothing meets all formulas), ``met``, ``timeout``, or ``unknown`` where it gave up by itself.
-    values
-        Where met: a value for every unknown, as near as a float comes, if the solver tells.
-    took_s
-        How long it took: by the solver's own count of its work if it has one.
+    Where met `values` are those of all unknowns, as near as floats come, if it tells; `took_s` is by its own count of
+    its work if it has one.
     """
 
     kind: Found
@@ -48,13 +42,7 @@ class Answer:
 
 @dataclass(frozen=True, slots=True)
 class Capabilities:
-    """What can be expected of a solver.
-
-    Attributes
-    ----------
-    exact
-        Whether it reckons with rationals: only then is its ``refuted`` a proof.
-    """
+    """What can be expected of a solver: ``refuted`` is a proof only where it is `exact`, as rationals are."""
 
     exact: bool
 
@@ -83,9 +71,12 @@ SOLVERS: Kind[Refuter] = Kind(
 
 
 def answer_of(refuter: Refuter, unknowns: Sequence[Unknown], formulas: Sequence[Named], timeout_s: float) -> Answer:
-    """Return what a solver answers; raises `SolverError` where it fails."""
+    """Return what a solver answers, asked with the ranges that are left; raises `SolverError` where it fails."""
+    ranges = tightened(unknowns, (each.formula for each in formulas))
+    if any(each.low > each.high for each in ranges):
+        return Answer("refuted")
     with SOLVERS.blamed(refuter):
-        if isinstance(answer := refuter.ask(unknowns, formulas, timeout_s), Answer):
+        if isinstance(answer := refuter.ask(ranges, formulas, timeout_s), Answer):
             return answer
         raise TypeError(f"it answered {answer!r}")
 

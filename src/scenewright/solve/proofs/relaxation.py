@@ -1,8 +1,7 @@
 """What a refutation rests on: formulas that every legal motion of the scenario satisfies.
 
 What enters: events and lowered constraints. What leaves: named formulas. Leaving some out makes a proof harder to find,
-never false; so nothing is assumed here that a legal motion could break: no comfort, no manner, no turn before it is
-known to lie within the scenario.
+never false; so nothing is assumed here that a legal motion could break.
 """
 
 from __future__ import annotations
@@ -17,9 +16,8 @@ from numpy.typing import NDArray
 from scenewright.algebra.polynomials import FALSE, TRUE, ZERO, Formula, Named, atom, compare, every, some
 from scenewright.motion.laws import Law, reach
 from scenewright.program.types import EGO
-from scenewright.solve.proofs.events import Events
+from scenewright.solve.proofs.events import Events, Narrowing
 from scenewright.solve.proofs.forms import TIGHT
-from scenewright.solve.proofs.narrowing import Narrowing
 from scenewright.solve.proofs.order import least_differences, places_within
 
 EVEN_RATE = "a rate that is told of a piece lasts all through it, but for a moment at either end"
@@ -32,22 +30,17 @@ def relaxation(events: Events, narrowings: Sequence[Narrowing], constraints: Seq
     formulas = [each.formula for each in constraints]
     least, within = least_differences(events, formulas), places_within(events, formulas)
     # What holds up to a place may hold of no time at all, unless it begins before that for certain.
-    latest_m = {key: high for key, (_, high) in within.items()}
-    narrowings = [n for n in narrowings if not n.up_to_place or latest_m.get((n.actor, n.first), n.place_m) < n.place_m]
-    found += _order_of_knots(events)
+    latest = ((each, within.get((each.actor, each.first), (ZERO, each.place_m))[1]) for each in narrowings)
+    narrowings = [each for each, latest_m in latest if not each.up_to_place or latest_m < each.place_m]
+    for actor in events.scene.program.actors:
+        times = [events.times[events.knot(actor.id, name)] for name in actor.sketch.knots]
+        words = f"the knots of {actor.name} come one after another"
+        found += [Named(compare("<=", early, late), words) for early, late in pairwise(times)]
     found += [_evenly(events, each) for each in narrowings if each.even]
     for actor in events.scene.program.actors:
         if not (actor.is_ego and events.drive is not None):  # how it drove is a fact
             found += _motion(events, narrowings, actor.id, least)
     return [each for each in found if each.formula != TRUE]
-
-
-def _order_of_knots(events: Events) -> Iterator[Named]:
-    for actor in events.scene.program.actors:
-        knots = [events.knot(actor.id, name) for name in actor.sketch.knots]
-        for early, late in pairwise(knots):
-            formula = compare("<=", events.times[early], events.times[late])
-            yield Named(formula, f"the knots of {actor.name} come one after another")
 
 
 def _evenly(events: Events, piece: Narrowing) -> Named:
@@ -70,38 +63,26 @@ def _evenly(events: Events, piece: Narrowing) -> Named:
 
 
 def _motion(events: Events, narrowings: Sequence[Narrowing], actor: int, least: NDArray[np.float64]) -> Iterator[Named]:
-    """Yield the law between each two moments of an actor that may be neighbours, also in each piece they may lie in."""
+    """Yield the law between each two moments of an actor that may be neighbours: that of a piece they surely lie in."""
     name, free = events.scene.program.actor(actor).name, events.law_of(actor)
     moves = events.ego.words(name) if actor == EGO else f"{name} {free.words()}"
-    pieces = [each for each in events.pieces if each.actor == actor]
-    bounded = [each for each in narrowings if each.actor == actor and each.proven is not None]
+    bounded = [each for each in (*events.pieces, *narrowings) if each.actor == actor and each.proven is not None]
     instants, times = events.instants_of(actor), events.times
     for early, late in permutations(instants, 2):
         if least[late, early] > _CERTAIN or _parted(instants, early, late, least):
             continue
-        certain = [each for each in (*pieces, *bounded) if _within(each, early, late, least)]
+        certain = [each for each in bounded if _within(each, early, late, least)]
         law = reduce(Law.meet, (each.proven for each in certain if each.proven), free)
-        origin = next((piece.origin for piece in pieces if piece in certain), moves)
+        origin = next((each.origin for each in certain if each in events.pieces), moves)
         besides = tuple(dict.fromkeys(each.origin for each in certain if each.origin != origin))
         reversed_ = [] if least[early, late] >= 0 else [compare("<", times[late], times[early])]
         yield Named(some([*reversed_, reach_formula(events, actor, early, late, law)]), origin, besides)
-        for piece in pieces if origin == moves else ():
-            if not any(_outside(piece, instant, least) for instant in (early, late)):
-                ends = ("<", times[piece.first]), (">", times[piece.last])
-                elsewhere = [compare(side, times[k], end) for k in (early, late) for side, end in ends]
-                held = reach_formula(events, actor, early, late, law.meet(piece.law))
-                yield Named(some([*elsewhere, *reversed_, held]), piece.origin, besides)
 
 
 def _within(narrowing: Narrowing, early: int, late: int, least: NDArray[np.float64]) -> bool:
     """Whether two moments certainly lie in what is narrower."""
     begun = all(least[instant, early] >= 0 for instant in narrowing.begins())
     return begun and all(least[late, instant] >= 0 for instant in narrowing.ends())
-
-
-def _outside(piece: Narrowing, instant: int, least: NDArray[np.float64]) -> bool:
-    """Whether an instant is certain to be before or after a piece."""
-    return bool(least[instant, piece.first] > _CERTAIN or least[piece.last, instant] > _CERTAIN)
 
 
 def _parted(instants: list[int], early: int, late: int, least: NDArray[np.float64]) -> bool:

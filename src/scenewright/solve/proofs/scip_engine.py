@@ -1,22 +1,19 @@
 """SCIP as a cross-check: global and quick with many products, but numeric; what it refutes is no proof.
 
-What enters: named formulas over unknowns with ranges. What leaves: that it finds nothing that meets them all, to within
-its tolerance; values; or that neither was found. A disjunction is a sum of binaries, a comparison under one is let off
-by as much as its polynomial can fail by within the ranges.
+What enters: named formulas over unknowns with ranges. What leaves: an answer, to within its tolerance. A disjunction is
+a sum of binaries, a comparison under one is let off by as much as its polynomial can fail by within the ranges.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
-from fractions import Fraction
+from collections.abc import Sequence
 from itertools import product
 from typing import Any
 
 import pyscipopt
 
-from scenewright.algebra.polynomials import All, Atom, Formula, Monomial, Named, Polynomial, Some, Unknown
-from scenewright.solve.proofs.order import tightened
+from scenewright.algebra.polynomials import All, Atom, Formula, Named, Polynomial, Some, Unknown
 from scenewright.solve.proofs.refuters import Answer, Capabilities
 
 
@@ -28,10 +25,7 @@ class Scip:
 
     def ask(self, unknowns: Sequence[Unknown], formulas: Sequence[Named], timeout_s: float) -> Answer:
         """Ask whether all `formulas` can hold at once; a strict comparison is taken for one that is not."""
-        ranges = tightened(unknowns, (each.formula for each in formulas))
-        if any(each.low > each.high for each in ranges):
-            return Answer("refuted")
-        posed = _Posed(ranges)
+        posed = _Posed(unknowns)
         for each in formulas:
             posed.require(each.formula)
         posed.model.setParam("limits/time", max(0.001, timeout_s))
@@ -77,14 +71,10 @@ class _Posed:
     def _compare(self, left: Polynomial, chosen: Any) -> None:
         """Require ``left <= 0``, unless `chosen` is zero; scaled, so that a tolerance means the same everywhere."""
         scale = max(abs(float(value)) for value in left.terms.values())
-        terms = [float(value) / scale * self._product(key) for key, value in left.terms.items()]
-        most = sum(max(value * math.prod(ends) for ends in self._ends(key)) for key, value in left.terms.items())
-        free = 0 if chosen is None else max(0.0, float(most) / scale) * (1 - chosen)
+        terms, most = list[Any](), 0.0  # the most that it can be, at corners of the ranges
+        for key, value in left.terms.items():
+            terms.append(float(value) / scale * math.prod((self.variables[number] for number in key), start=1))
+            ends = product(*((self.unknowns[number].low, self.unknowns[number].high) for number in key))
+            most += float(max(value * math.prod(corner) for corner in ends))
+        free = 0 if chosen is None else max(0.0, most / scale) * (1 - chosen)
         self.model.addCons(pyscipopt.quicksum(terms) <= free)
-
-    def _product(self, key: Monomial) -> Any:
-        return math.prod((self.variables[number] for number in key), start=1)
-
-    def _ends(self, key: Monomial) -> Iterator[tuple[Fraction, ...]]:
-        """Yield what the unknowns of a product are at the corners of their ranges."""
-        return product(*((self.unknowns[number].low, self.unknowns[number].high) for number in key))

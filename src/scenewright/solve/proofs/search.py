@@ -1,9 +1,8 @@
 """Looks for a motion of everybody that meets all constraints: Newton steps, one convex problem each.
 
-What enters: events, constraints lowered over them, and a first guess. What leaves: values of all unknowns, exact to a
-micrometre, or nothing. No order of moments is guessed: at each step they stand in the order of their present times,
-neighbours obey the law of the piece they lie in, of alternatives the nearest is taken, and one convex problem with
-soft rows meets all of it as well as it can. It proves nothing.
+What enters: events, constraints lowered over them, and a first guess. What leaves: values of all unknowns, or nothing.
+At each step moments stand in the order of their present times, neighbours obey the law of the piece they lie in, of
+alternatives the nearest is taken, and one convex problem with soft rows meets all of it as well as it can.
 """
 
 from __future__ import annotations
@@ -17,8 +16,7 @@ from numpy.typing import NDArray
 from scenewright.algebra.compiled import Compiled
 from scenewright.algebra.polynomials import Formula
 from scenewright.motion.laws import Law, bounded, capped, fixed
-from scenewright.solve.proofs.events import Events
-from scenewright.solve.proofs.narrowing import Narrowing
+from scenewright.solve.proofs.events import Events, Narrowing
 from scenewright.solve.proofs.order import least_differences
 
 Array = NDArray[np.float64]
@@ -51,7 +49,6 @@ class Search:
         self._scale = np.array([_SCALE[each.kind] for each in events.unknowns])
         free = np.array([each.kind == "other" for each in events.unknowns])
         self._scale = np.where(free, np.maximum(1.0, 0.25 * (self._high - self._low)), self._scale)
-        self._liking: Array = np.ones(0)
         self._lines = {
             actor.id: _Line(events, actor.id, least, [n for n in narrower if n.actor == actor.id])
             for actor in events.scene.program.actors
@@ -63,14 +60,13 @@ class Search:
 
         With a `generator` some alternatives are liked better than others, whatever is nearest.
         """
-        self._liking = np.ones(len(self._compiled.atoms))
-        if generator is not None:
-            self._liking = np.exp(2.0 * generator.standard_normal(len(self._compiled.atoms)))
+        count = len(self._compiled.atoms)
+        liking = np.ones(count) if generator is None else np.exp(2.0 * generator.standard_normal(count))
         point = np.append(np.clip(guess, self._low, self._high), 1.0)
         trust, best, stale = _TRUST, np.inf, 0
         for _ in range(_MOST_STEPS):
             self.steps, self.work = self.steps + 1, self.work + _A_STEP + self._size**2
-            rows, levels, equal = self._rows(point)
+            rows, levels, equal = self._rows(point, liking)
             worst = float(np.max(np.where(equal, np.abs(levels), levels), initial=0.0))
             if worst < DONE:
                 return point[:-1]
@@ -112,7 +108,7 @@ class Search:
         return None if flag < 1 else np.asarray(x) * scale
 
     # -- rows ---------------------------------------------------------------------------------------------------------
-    def _rows(self, point: Array) -> tuple[Array, Array, NDArray[np.bool_]]:
+    def _rows(self, point: Array, liking: Array) -> tuple[Array, Array, NDArray[np.bool_]]:
         """Return linearised rows over scaled steps, their levels (to be at most zero, or zero) and which are equal."""
         compiled, count = self._compiled, len(self._compiled.atoms)
         parts = [(compiled.values(point), compiled.gradients(point), compiled.equal)]
@@ -123,7 +119,7 @@ class Search:
         levels = levels / norms
         levels[:count] += np.where(compiled.strict, _STRICT, 0.0)
         errors = np.where(equal, np.abs(levels), levels)[:count]
-        taken = [*compiled.chosen(errors * self._liking), *range(count, len(levels))]
+        taken = [*compiled.chosen(errors * liking), *range(count, len(levels))]
         return rows[taken] / norms[taken, None], levels[taken], equal[taken]
 
     def way_of(self, point: Array, actor: int) -> tuple[list[int], list[Law]]:

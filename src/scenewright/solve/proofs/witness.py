@@ -1,8 +1,7 @@
 """Makes a motion of what a search found, and looks whether it is one: the only thing that is called feasible.
 
-What enters: values of all unknowns. What leaves: a profile for each actor, and what is amiss with them: constraints
-that an evaluator of its own finds broken, motions that no law admits, turns that are taken too fast, boxes that touch
-before the trigger. It shares no code with the lowering, so a wrong lowering is found out here.
+What enters: values of all unknowns. What leaves: a profile for each actor, and what is amiss with them. It shares no
+code with the lowering, so a wrong lowering is found out here.
 """
 
 from __future__ import annotations
@@ -72,24 +71,19 @@ def _profile(events: Events, search: Search, point: Array, actor: int, times: Ma
     order, laws = search.way_of(point, actor)
     knots = {name: times[events.knot(actor, name)] for name in events.scene.program.actor(actor).sketch.knots}
     pieces = sorted(knots.values())
+    states = ((times[k], events.state(actor, k)) for k in order)
+    ends = [(time_s, state.place.value(point), state.speed.value(point)) for time_s, state in states]
     segments: list[Segment] = []
-    for number, (early, late) in enumerate(pairwise(order)):
-        a, b = events.state(actor, early), events.state(actor, late)
-        place, speed = a.place.value(point), a.speed.value(point)
-        after, end = b.speed.value(point), b.place.value(point)
-        now = times[early]
+    for law, ((now, place, speed), (then, end, after)) in zip(laws, pairwise(ends), strict=True):
         piece = max(0, min(sum(t <= now + 1e-9 for t in pieces) - 1, len(pieces) - 2))
-        for duration, rate in realise(laws[number], speed, after, times[late] - now, end - place):
+        for duration, rate in realise(law, speed, after, then - now, end - place):
             if duration < _SHORTEST_S:
-                rate = min(max(rate, float(laws[number].rate_low)), float(laws[number].rate_high))
+                rate = min(max(rate, float(law.rate_low)), float(law.rate_high))
             if duration > 1e-12:
-                segments.append(Segment(now, duration, place, speed, rate, piece))
-                place += (speed + 0.5 * rate * duration) * duration
-                now, speed = now + duration, max(0.0, speed + rate * duration)
-    if not segments:
-        state = events.state(actor, order[0])
-        segments = [Segment(0.0, 0.0, state.place.value(point), state.speed.value(point), 0.0)]
-    return Profile(tuple(segments), knots)
+                made = Segment(now, duration, place, speed, rate, piece)
+                segments.append(made)
+                now, place, speed = made.end_s, made.end_s_m, made.end_speed_mps
+    return Profile(tuple(segments or [Segment(0.0, 0.0, *ends[0][1:], 0.0)]), knots)
 
 
 def broken(

@@ -10,10 +10,9 @@ from scenewright.motion.limits import limits_on
 from scenewright.program.text import parse_program
 from scenewright.roads.grounding import Scene, ground
 from scenewright.roads.load import load_map
+from scenewright.solve.proofs.bends import bound_in_bend
 from scenewright.solve.proofs.events import EgoBounds, Events
 from scenewright.solve.proofs.lowering import Lowering
-from scenewright.solve.proofs.order import places_within
-from scenewright.solve.proofs.soonest import past_bends
 
 TEXT = """scenario "s"
 map "t_intersection"
@@ -37,14 +36,12 @@ def bounds(asked: str, turn: str) -> tuple[Scene, list[tuple[float, float, float
     scene = ground(parse_program(TEXT.format(asked=asked, turn=turn)), load_map("t_intersection"))
     limits = {actor: limits_on(route, scene.road_map) for actor, route in scene.routes.items()}
     events = Events(scene, limits, EgoBounds())
-    lowered = Lowering(events).lower(scene.program.constraints)
-    early = events.knot(1, "t1")
+    early, late = events.knot(1, "t1"), events.knot(1, "t2")
     state, found = events.state(1, early), list[tuple[float, float, float]]()
-    told = places_within(events, [named.formula for named in lowered])
-    for each in past_bends(events, 1, {instant: ends for (actor, instant), ends in told.items() if actor == 1}):
-        assert isinstance(each.formula, Atom)
+    bound_in_bend(events, 1, [each.formula for each in Lowering(events).lower(scene.program.constraints)])
+    for each in (each for each in events.rules if isinstance(each.formula, Atom)):
         terms = each.formula.left.terms
-        if events.times[early].number in {key[0] for key in terms if key}:
+        if {events.times[early].number, events.times[late].number} <= {key[0] for key in terms if key}:
             per_m, per_mps = (float(terms.get((number.number,), 0)) for number in (state.place, state.speed))
             found.append((per_m, per_mps, float(terms.get((), 0))))
     return scene, found
