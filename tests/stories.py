@@ -6,6 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
 
+import pytest
+
 from scenewright.drive.guarded import GuardedPolicy
 from scenewright.drive.protocol import EgoPolicy, EgoStart, Observation
 from scenewright.motion.limits import Limits, Signs, limits_on
@@ -150,6 +152,15 @@ def driven(
 @cache
 def _driven(story: str, ego: str, seed: int, mode: Mode, takes: int, replan_hz: float) -> Result:
     return orchestrate(Request(STORIES[story], ego=ego, seed=seed, mode=mode, takes=takes, replan_hz=replan_hz))
+
+
+def replan_seldom(patch: pytest.MonkeyPatch) -> None:
+    """Let runs from now on make plans anew twice a second, however often they are asked to."""
+
+    def rates(replan_s: float | None) -> Rates:
+        return Rates(replan_s=None if replan_s is None else max(0.5, replan_s))
+
+    patch.setattr("scenewright.orchestrate.Rates", rates)
 
 
 @dataclass

@@ -42,7 +42,7 @@ def test_sentence_file_program_and_text_of_a_program_are_one_scenario(tmp_path: 
     (tmp_path / "left turn.txt").write_text(SENTENCE, encoding="utf-8")
     (tmp_path / "turn.scene").write_text(program_text(), encoding="utf-8")
     sources = [SENTENCE, str(tmp_path / "left turn.txt"), str(tmp_path / "turn.scene"), program_text()]
-    found = [orchestrate(Request(source, FINE, replan_hz=4.0)) for source in sources]
+    found = [orchestrate(Request(source, FINE, replan_hz=2.0)) for source in sources]
     assert {result.status for result in found} == {"success"}
     assert [result.understanding is not None for result in found] == [True, True, False, False]
     traces = [result.run.trace for result in found if result.run is not None]
@@ -56,7 +56,9 @@ def test_a_text_with_the_answers_that_its_run_kept_gives_the_same_program(tmp_pa
     assert others, "one is answered, the others are taken by default"
     given = {question.slot: question.alternatives[-1 if question.default == 0 else 0]}
     out, again = tmp_path / "first", tmp_path / "again"
-    request = Request(text, FINE, translator="offline", takes=1, translation=TranslatorSettings(answers=given))
+    request = Request(
+        text, FINE, translator="offline", takes=1, replan_hz=2.0, translation=TranslatorSettings(answers=given)
+    )
     orchestrate(replace(request, out=out))
     kept = TranslatorSettings(answers=read_answers(out / "answers.json"), strict=True)
     assert kept.answers.items() > given.items()
@@ -355,7 +357,8 @@ def test_other_numbers_are_tried_as_a_user_would_take_them(monkeypatch: pytest.M
         return orchestrate(request, *others, **more)  # type: ignore[arg-type]
 
     monkeypatch.setattr("scenewright.orchestrate.orchestrate", noted)
-    verdict = orchestrate(Request(text, ego="dawdler", takes=1, explain="ways out")).verdict
+    monkeypatch.setattr("scenewright.explain.ways_out._TRIES", 2)  # each is a whole run
+    verdict = orchestrate(Request(text, ego="dawdler", takes=1, explain="ways out", replan_hz=2.0)).verdict
     assert verdict is not None
     assert verdict.cause is not None
     assert verdict.cause.tried

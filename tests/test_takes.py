@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
 
 import pytest
 
@@ -30,6 +31,15 @@ class Halts:
         return 2.0 if observation.ego.speed_mps < 10.0 else 0.0
 
 
+ASKED = Request(STORIES["goes first, distance"], ego=f"{__name__}:Halts")
+
+
+@cache
+def as_asked() -> Result:
+    """Return the run, made once for all tests that look at it."""
+    return orchestrate(ASKED)
+
+
 def unnatural(result: Result) -> list[str]:
     assert result.run is not None
     assert result.verdict is not None
@@ -37,26 +47,23 @@ def unnatural(result: Result) -> list[str]:
 
 
 def test_a_success_that_nobody_would_drive_so_is_taken_again() -> None:
-    asked = Request(STORIES["goes first, distance"], ego=f"{__name__}:Halts")
-    first = orchestrate(replace(asked, takes=1))
+    first = orchestrate(replace(ASKED, takes=1))
     assert first.status == "success"
     assert unnatural(first)
     assert first.run is not None
     assert set(unnatural(first)) <= set(first.run.findings), "what is left of it is told"
-    best = orchestrate(asked)
+    best = as_asked()
     assert (best.status, unnatural(best)) == ("success", [])
     assert best.take == len(best.takes) > 1
-    assert worth(asked, best) > worth(asked, first)
-    assert is_enough(asked, best)
-    assert not is_enough(asked, first)
+    assert worth(ASKED, best) > worth(ASKED, first)
+    assert is_enough(ASKED, best)
+    assert not is_enough(ASKED, first)
 
 
 def test_an_aim_beyond_what_decides_changes_takes_and_no_verdict() -> None:
-    asked = Request(STORIES["goes first, distance"], ego=f"{__name__}:Halts")
-    aimed = orchestrate(replace(asked, aim="fine"))
-    as_asked = orchestrate(asked)
-    assert aimed.status == as_asked.status == "success"
-    assert len(aimed.takes) >= len(as_asked.takes)
+    aimed = orchestrate(replace(ASKED, aim="fine"))
+    assert aimed.status == as_asked().status == "success"
+    assert len(aimed.takes) >= len(as_asked().takes)
     held = [sum(take.verdict.holds_at(level) for level in LEVELS.values()) for take in aimed.takes]
     assert held[aimed.take - 1] == max(held)
 

@@ -29,7 +29,7 @@ from scenewright.roads.bodies import CAR
 from scenewright.roads.grounding import Scene, ground
 from scenewright.roads.load import load_map
 from scenewright.simulate.beginning import first_plan
-from scenewright.simulate.loop import Rates, Run, simulate
+from scenewright.simulate.loop import DEFAULT_REPLAN_S, Rates, Run, simulate
 from scenewright.simulate.port import Start
 from scenewright.simulate.world import World
 from scenewright.trace.model import ActorTrace, Trace
@@ -159,11 +159,11 @@ def _until(states: ActorTrace, until_s: float) -> ActorTrace:
     return ActorTrace(*(getattr(states, each.name)[:count] for each in fields(states)))
 
 
-def drive(text: str, ego: str, seed: int = 0) -> Driven:
+def drive(text: str, ego: str, seed: int = 0, replan_s: float = DEFAULT_REPLAN_S) -> Driven:
     """Plan and drive a program once, in one take."""
     program = parse_program(text)
     scene = ground(program, load_map(program.map_name), {})
-    world = World(scene, ego, seed, Rates())
+    world = World(scene, ego, seed, Rates(replan_s=replan_s))
     began_s = time.process_time()
     planned = first_plan(world)
     assert planned is not None

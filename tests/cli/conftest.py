@@ -7,10 +7,12 @@ import os
 import subprocess
 import sys
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 import pytest
+from typer.main import get_command
 from typer.testing import CliRunner
 
 from scenewright.cli.app import app
@@ -22,6 +24,8 @@ from scenewright.study.report import measuring
 sys.path.insert(0, str(Path(__file__).parent))
 
 _numbers = itertools.count()
+# As in a process of its own, the command is made of its functions once: it takes as long as many a command.
+made_of = cache(get_command)
 
 
 @pytest.fixture(autouse=True)
@@ -38,8 +42,9 @@ def runs_planned_seldom(replanned_seldom: None) -> None:
 
 
 @pytest.fixture
-def command() -> Callable[..., Any]:
+def command(monkeypatch: pytest.MonkeyPatch) -> Callable[..., Any]:
     """Return the command, called in this process with words; the result has exit_code, stdout and stderr."""
+    monkeypatch.setattr("typer.testing._get_command", made_of)
     return lambda *words: CliRunner().invoke(app, [str(word) for word in words])
 
 

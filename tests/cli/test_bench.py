@@ -25,6 +25,7 @@ from scenewright.study.lines import LineLog
 from scenewright.study.store import LINES_FILE, CaseRecord, read_results, write_settings
 from scenewright.trace.files import read_trace, write_trace
 from scenewright.trace.model import Trace
+from stories import replan_seldom
 
 Command = Callable[..., Any]
 Start = Callable[..., "subprocess.Popen[str]"]
@@ -37,7 +38,8 @@ KEYS = [f"{row}-{ego}-0-scenewright" for row in (16, 17) for ego in ("constant",
 def experiment(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Return the results of a small experiment, carried out once for all tests that look at them."""
     folder = tmp_path_factory.mktemp("experiment")
-    with contextlib.chdir(folder):
+    with contextlib.chdir(folder), pytest.MonkeyPatch.context() as patch:
+        replan_seldom(patch)
         assert CliRunner().invoke(app, [*HERE[1:], "0"]).exit_code == 0
     return folder / "here"
 

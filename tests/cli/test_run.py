@@ -154,6 +154,7 @@ def test_a_near_miss_is_told_and_is_no_collision(command: Command) -> None:
     assert command("run", SENTENCE, "--fail-on", "rain").exit_code == 2
 
 
+@pytest.mark.usefixtures("searched_less")
 def test_gives_up_with_what_the_planner_cannot_hold(command: Command, tmp_path: Path) -> None:
     program = tmp_path / "not_to_be_held.scene"
     program.write_text(UNPLANNED, encoding="utf-8")

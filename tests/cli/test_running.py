@@ -41,15 +41,15 @@ def test_at_the_very_end_it_is_no_longer_needed() -> None:
 
 
 @pytest.mark.parametrize(
-    "where",
+    ("where", "takes"),
     [
-        "scenewright.simulate.beginning.first_plan",
-        "scenewright.explain.cause.cause_of",
-        "scenewright.simulate.hindsight.ego_left_no_room",
+        ("scenewright.simulate.beginning.first_plan", 2),
+        ("scenewright.explain.cause.cause_of", 1),
+        ("scenewright.simulate.hindsight.ego_left_no_room", 2),
     ],
 )
 def test_after_the_first_take_it_keeps_what_was_driven(
-    where: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    where: str, takes: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     module, _, name = where.rpartition(".")
     real, calls = getattr(import_module(module), name), []
@@ -63,7 +63,7 @@ def test_after_the_first_take_it_keeps_what_was_driven(
     # A proof takes longer than the run; here it is of no matter whether there is one.
     monkeypatch.setattr("scenewright.simulate.hindsight.ego_left_no_room", lambda *_: None)
     monkeypatch.setattr(where, interrupted)
-    result = orchestrate(Request(STORIES["goes first, distance"], ego="speeder", takes=2, out=tmp_path / "run"))
+    result = orchestrate(Request(STORIES["goes first, distance"], ego="speeder", takes=takes, out=tmp_path / "run"))
     assert (result.status, EXIT_STATUS[result.status]) == ("interrupted", 130)
     assert result.verdict is not None
     assert (tmp_path / "run" / "trace.parquet").is_file()

@@ -30,7 +30,7 @@ CASES = [
 
 def missed(story: str, ego: str, mode: Mode = "closed") -> Result:
     """Return a run that missed; who waits for an ego that stands re-solves often for nothing."""
-    result = driven(story, ego, mode=mode, takes=1, replan_hz=4.0)
+    result = driven(story, ego, mode=mode, takes=1, replan_hz=1.0)
     assert result.status == "failure", "what is asked about is a run that missed"
     return result
 
@@ -71,7 +71,7 @@ def test_success_has_no_cause() -> None:
 
 def test_nothing_is_asked_where_nobody_wants_to_know() -> None:
     result = orchestrate(
-        Request(STORIES["goes first, distance"], ego="speeder", takes=1, explain="nothing", replan_hz=4.0)
+        Request(STORIES["goes first, distance"], ego="speeder", takes=1, explain="nothing", replan_hz=1.0)
     )
     assert result.verdict is not None
     assert (result.status, result.verdict.cause, result.hindsight) == ("failure", None, None)
@@ -91,14 +91,14 @@ def test_cause_is_written_and_read_back(tmp_path: Path) -> None:
 
 def test_what_an_ego_alone_is_asked_for_is_its_own_to_miss() -> None:
     text = STORIES["yields, distance"] + "afterwards: A0v(t2) == 11\nA0x(t2) == conflict_point + 20\n"
-    found = cause(orchestrate(Request(text, ego="answering:Heedless:keep_mps=10.5", takes=1, replan_hz=4.0)))
+    found = cause(orchestrate(Request(text, ego="answering:Heedless:keep_mps=10.5", takes=1, replan_hz=1.0)))
     assert (found.kind, found.evidence["condition"]) == ("ego", "afterwards")
     assert "the ego alone decides" in found.text.lower()
 
 
 @pytest.mark.parametrize(("ego", "condition"), [("Strays", "route_ego"), ("States", "kin_ego_map_drift")])
 def test_what_an_ego_owes_in_any_run_is_its_own_to_miss_and_no_number_mends_it(ego: str, condition: str) -> None:
-    request = Request(STORIES["yields, distance"], ego=f"answering:{ego}", takes=1, replan_hz=4.0, explain="ways out")
+    request = Request(STORIES["yields, distance"], ego=f"answering:{ego}", takes=1, replan_hz=1.0, explain="ways out")
     result = orchestrate(request)
     assert result.verdict is not None
     missed = {each.id for each in result.verdict.conditions if not each.holds_at(TIGHT)}
@@ -137,7 +137,7 @@ def test_when_a_moment_of_both_comes_is_not_the_egos_alone() -> None:
 
 @pytest.mark.parametrize(("name", "told"), [("start", "brakes with 6.0 m/s^2 at once"), ("c1", "no first plan")])
 def test_a_run_that_fails_by_its_beginning_is_told_what_its_first_plan_gave_up(name: str, told: str) -> None:
-    request = Request(STORIES["yields, distance"], ego="constant", takes=1, replan_hz=4.0)
+    request = Request(STORIES["yields, distance"], ego="constant", takes=1, replan_hz=1.0)
     result, world = orchestrate(request), set_up(request, Stages(None))[0]
     run, verdict = result.run, result.verdict
     assert run is not None
@@ -175,7 +175,7 @@ A2v(t2) == 0
 
 
 def test_who_drives_into_a_hero_after_its_trigger_spoils_what_others_were_to_do() -> None:
-    found = orchestrate(Request(BETWEEN, ego="constant", takes=1, replan_hz=4.0))
+    found = orchestrate(Request(BETWEEN, ego="constant", takes=1, replan_hz=1.0))
     assert found.status == "failure"
     told = cause(found)
     assert (told.kind, told.evidence["hero"]) == ("ego", "hero")
@@ -200,7 +200,7 @@ A1(t1) == 30 s
 A0v(A1(t1)) >= 5
 A1v(t2) == 6
 """
-    found = cause(orchestrate(Request(program, ego="constant", takes=1, replan_hz=4.0)))
+    found = cause(orchestrate(Request(program, ego="constant", takes=1, replan_hz=1.0)))
     assert (found.kind, found.evidence["at_the_end_of_its_road"]) == ("plan", True)
     assert found.text.startswith("The ego came to the end of its road at ")
 
@@ -208,7 +208,7 @@ A1v(t2) == 6
 @pytest.mark.usefixtures("searched_less")
 def test_where_all_that_was_asked_was_done_what_else_was_missed_is_told() -> None:
     """The program puts the lead so near that an ego which holds its speed drives into it before the trigger."""
-    found = cause(orchestrate(Request(STOPS_AHEAD, ego="constant", takes=1, replan_hz=4.0)))
+    found = cause(orchestrate(Request(STOPS_AHEAD, ego="constant", takes=1, replan_hz=1.0)))
     assert "the ego collides with nobody before the trigger" in found.text
     assert "no plan was found" not in found.text
 
@@ -231,7 +231,7 @@ A1x(t1) == conflict_point - 12
 always[A1(t0), A1(t2)] (A1v == 15 km/h)
 A1x(t2) == conflict_point + 8
 """
-    result = orchestrate(Request(program, ego="answering:Early", takes=1, replan_hz=4.0))
+    result = orchestrate(Request(program, ego="answering:Early", takes=1, replan_hz=1.0))
     assert result.run is not None
     found = cause(result)
     assert found.kind == "prediction"
@@ -262,7 +262,7 @@ A1v(t2) == 0
 @pytest.mark.usefixtures("searched_less")
 def test_what_comes_after_a_crash_is_not_told_as_its_cause() -> None:
     """The hero, at full acceleration from the start, comes to its greatest speed seconds after it was hit."""
-    result = orchestrate(Request(TOO_NEAR, ego="constant", takes=1, replan_hz=4.0))
+    result = orchestrate(Request(TOO_NEAR, ego="constant", takes=1, replan_hz=1.0))
     assert result.status == "failure"
     assert result.verdict is not None
     assert result.verdict.aftermath.collision is not None

@@ -34,7 +34,7 @@ A1v(t4) == 6
 
 def waited_for(ego_m: float, hero_m: float, stands_m: float) -> Result:
     text = WAITS.format(ego_m=ego_m, hero_m=hero_m, stands_m=stands_m)
-    return orchestrate(Request(text, takes=1, replan_hz=4.0))
+    return orchestrate(Request(text, takes=1, replan_hz=1.0))
 
 
 @pytest.mark.parametrize(("ego_m", "hero_m", "stands_m"), [(15, 28, 9), (15, 28, 2), (8, 40, 2)])
@@ -67,7 +67,7 @@ A0x(t2) == conflict_point
 def test_an_ego_that_stands_before_a_hero_did_not_decide_on_that_alone() -> None:
     """The hero stops where the ego is to pass: that it does not pass, and how fast, is not the ego's doing."""
     text = program("E, N", "t0, go, t1, dec, t2", STANDS + "A1x(t2) == conflict_point - 1\nA0v(t2) >= 8\n")
-    request = Request(text, takes=1, replan_hz=4.0)
+    request = Request(text, takes=1, replan_hz=1.0)
     result = orchestrate(request)
     verdict = result.verdict
     assert verdict is not None
@@ -94,7 +94,7 @@ def test_an_ego_that_stands_before_a_hero_did_not_decide_on_that_alone() -> None
 def test_an_ego_that_stands_for_nobody_is_the_cause() -> None:
     """Here it does after its trigger, and what it is to come to first never comes."""
     text = program("E, N", "t0, go, t1, dec, t2", STANDS + "A0x(t0) == conflict_point - 60\nA0(t2) < A1(t2)\n")
-    verdict = orchestrate(Request(text, ego="answering:Stops", takes=1, replan_hz=4.0)).verdict
+    verdict = orchestrate(Request(text, ego="answering:Stops", takes=1, replan_hz=1.0)).verdict
     assert verdict is not None
     assert verdict.cause is not None
     assert verdict.cause.kind == "ego"

@@ -16,7 +16,7 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
 def looked_at(story: str, ego: str) -> tuple[InWay | None, Result]:
-    result = driven(story, ego, takes=1, replan_hz=4.0)
+    result = driven(story, ego, takes=1, replan_hz=1.0)
     assert result.run is not None
     world, _ = set_up(Request(STORIES[story], ego=ego, takes=1), Stages(None))
     return hero_in_way(world, result.run), result
@@ -41,7 +41,7 @@ def test_until_the_ego_has_come_who_is_to_be_later_is_in_its_way() -> None:
     later = "A0(t1) == A1(t1)\nA0x(t1) == conflict_point - 45\nA1x(t1) == conflict_point - 16\n"
     passes = "A0x(t2) == conflict_point\nA1x(t2) == conflict_point\nA1(t2) - A0(t2) == 2\n"
     result = orchestrate(
-        Request(program("S, E", "t0, go, t1, go, t2", later + passes, "E"), ego="idm", takes=1, replan_hz=5.0)
+        Request(program("S, E", "t0, go, t1, go, t2", later + passes, "E"), ego="idm", takes=1, replan_hz=1.0)
     )
     assert result.status == "failure"
     assert result.verdict is not None
@@ -52,7 +52,7 @@ def test_until_the_ego_has_come_who_is_to_be_later_is_in_its_way() -> None:
 def test_who_is_kept_near_the_ego_is_where_it_is_to_be() -> None:
     """The ego follows a car that the program has 18 to 26 m ahead of it all the while: an answer to the test."""
     boxed_in = (EXAMPLES / "boxed_in.scene").read_text()
-    request = Request(boxed_in, ego="stop-and-go", seed=1, takes=1, replan_hz=2.0)
+    request = Request(boxed_in, ego="stop-and-go", seed=1, takes=1, replan_hz=1.0)
     run, (world, _) = orchestrate(request).run, set_up(request, Stages(None))
     assert run is not None
     assert hero_in_way(world, run) is None
@@ -99,7 +99,7 @@ A0x(t2) == A0.conflict_point(A2) - 10
 A2x(t1) == stop_line - 2
 A2v(t2) == 0
 """
-    result = orchestrate(Request(text, ego="delayed", takes=1, replan_hz=4.0))
+    result = orchestrate(Request(text, ego="delayed", takes=1, replan_hz=1.0))
     assert result.run is not None
     assert result.verdict is not None
     assert result.verdict.facts["trigger_came"] == {"turner": True, "driveway": False}
@@ -143,7 +143,7 @@ def test_who_heeds_nobody_slowed_down_for_nobody(story: str, ego: str) -> None:
 
 @pytest.mark.parametrize("seed", range(3))
 def test_whims_are_nobodys_doing(seed: int) -> None:
-    result = driven("yields, distance", "staller", seed, takes=1, replan_hz=4.0)
+    result = driven("yields, distance", "staller", seed, takes=1, replan_hz=1.0)
     assert result.run is not None
     world, _ = set_up(Request(STORIES["yields, distance"], ego="staller", seed=seed, takes=1), Stages(None))
     found = hero_in_way(world, result.run)
@@ -186,7 +186,7 @@ A0(t1) == A2(t1)
 A2v(t1) == 3
 A2v(t2) == 12
 """
-    result = orchestrate(Request(text, ego="idm", takes=1, replan_hz=4.0))
+    result = orchestrate(Request(text, ego="idm", takes=1, replan_hz=1.0))
     assert result.run is not None
     world, _ = set_up(Request(text, ego="idm", takes=1), Stages(None))
     found = hero_in_way(world, result.run)

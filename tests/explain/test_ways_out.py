@@ -23,7 +23,7 @@ WITH_NAME = STORIES["goes first, distance"].replace("conflict_point - 40", "conf
 
 
 def missed(text: str, **settings: object) -> Result:
-    result = orchestrate(Request(text, ego="speeder", takes=1, **settings))  # type: ignore[arg-type]
+    result = orchestrate(Request(text, ego="speeder", takes=1, replan_hz=1.0, **settings))  # type: ignore[arg-type]
     assert result.status == "failure"
     assert result.verdict is not None
     return result
@@ -55,7 +55,7 @@ def tried(
 
 def test_written_number_that_is_proposed_would_do() -> None:
     said: list[str] = []
-    request = Request(STORIES["goes first, distance"], ego="speeder", takes=1, explain="ways out")
+    request = Request(STORIES["goes first, distance"], ego="speeder", takes=1, replan_hz=1.0, explain="ways out")
     result = orchestrate(request, said.append)
     assert result.verdict is not None
     cause = result.verdict.cause

@@ -19,7 +19,13 @@ def larger(box: Box, by_m: float) -> Box:
 
 
 def touch(a: FloatArray, b: FloatArray) -> NDArray[np.bool_]:
-    """Whether two polygons overlap, each (N, 4, 2)."""
+    """Whether two polygons overlap, each (N, 4, 2): only of those that reach so far is it asked."""
+    middles = [polygon.mean(axis=1) for polygon in (a, b)]
+    reach_m = sum(
+        np.linalg.norm(each - middle[:, None], axis=2).max(1) for each, middle in zip((a, b), middles, strict=True)
+    )
+    near = np.linalg.norm(middles[0] - middles[1], axis=1) <= reach_m
+    a, b = a[near], b[near]
     together = np.ones(len(a), dtype=bool)
     for polygon in (a, b):
         edges = np.roll(polygon, -1, axis=1) - polygon
@@ -27,7 +33,8 @@ def touch(a: FloatArray, b: FloatArray) -> NDArray[np.bool_]:
             normal = np.stack([-edge[:, 1], edge[:, 0]], axis=-1)
             of_a, of_b = np.einsum("nij,nj->ni", a, normal), np.einsum("nij,nj->ni", b, normal)
             together &= (of_a.max(1) > of_b.min(1)) & (of_b.max(1) > of_a.min(1))
-    return together
+    near[near] = together
+    return near
 
 
 def collision_s(a: MovingBox, b: MovingBox, step_s: float, horizon_s: float = 8.0) -> float:

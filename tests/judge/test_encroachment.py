@@ -156,7 +156,7 @@ def test_runs_are_told_as_small_steps_find_them(ego: str, hero: str, sketch: str
         f"Actor 0 (ego):\n- {ego}\n- [t0, go, t1, go, t2]\n\nActor 1 (hero):\n- {hero}\n- [t0, go, t1, {sketch}]\n\n"
         f"Constraints:\nA0(t1) == A1(t1)\n{asked}\n"
     )
-    result = orchestrate(Request(text, ego=policy, takes=1, explain="nothing", replan_hz=4.0))
+    result = orchestrate(Request(text, ego=policy, takes=1, explain="nothing", replan_hz=1.0))
     trace = result.takes[-1].trace
     assert trace is not None
     assert result.verdict is not None

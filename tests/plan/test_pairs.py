@@ -17,6 +17,7 @@ from scenewright.program.types import EGO
 from scenewright.simulate.loop import DEFAULT_STEP_S
 
 SURELY_M = 0.3
+REPLAN_S = 0.5
 # Two cars on crossing ways, each told where to be when the ego is somewhere, and nothing of each other: as they are
 # told, the second is in the junction while the first is.
 ACROSS = """
@@ -71,7 +72,7 @@ A2x(t1) == stop_line + 11.5
     ],
 )
 def test_in_whole_runs_boxes_are_surely_apart_and_what_is_asked_is_met(program: str, count: int, ego: str) -> None:
-    driven = drive(PROGRAMS[program](count), ego)
+    driven = drive(PROGRAMS[program](count), ego, replan_s=REPLAN_S)
     assert driven.apart_m(of_ego=False) >= SURELY_M
     assert driven.apart_m(of_ego=True) >= SURELY_M
     assert driven.met == count
@@ -80,10 +81,10 @@ def test_in_whole_runs_boxes_are_surely_apart_and_what_is_asked_is_met(program: 
 def test_who_is_told_nothing_of_the_other_keeps_as_clear_of_it_as_the_manner_says(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    assert SURELY_M <= drive(ACROSS, "idm").apart_m(of_ego=False) < 2.0
-    assert drive("manner:\n- clear_m = 2\n" + ACROSS, "idm").apart_m(of_ego=False) > 2.0
+    assert SURELY_M <= drive(ACROSS, "idm", replan_s=REPLAN_S).apart_m(of_ego=False) < 2.0
+    assert drive("manner:\n- clear_m = 2\n" + ACROSS, "idm", replan_s=REPLAN_S).apart_m(of_ego=False) > 2.0
     monkeypatch.setattr(planning, "meetings_of", lambda scene: ())
-    assert drive(ACROSS, "idm").apart_m(of_ego=False) < 0.0
+    assert drive(ACROSS, "idm", replan_s=REPLAN_S).apart_m(of_ego=False) < 0.0
 
 
 def test_who_comes_behind_keeps_clear_until_the_first_has_left_the_lane() -> None:
@@ -110,12 +111,12 @@ A2(t1) == A1(t1)
 gap(A1, A2, t1) == -15
 A2v(t2) - A2v(t1) == 2
 """
-    assert drive(turns_off, "constant").apart_m(of_ego=False) > 0.0
+    assert drive(turns_off, "constant", replan_s=REPLAN_S).apart_m(of_ego=False) > 0.0
 
 
 def test_who_is_to_be_in_contact_is_let() -> None:
     scene = scene_of(IN_CONTACT)
-    driven = drive(IN_CONTACT, "constant")
+    driven = drive(IN_CONTACT, "constant", replan_s=REPLAN_S)
     motions = driven.run.last_plan.profiles
     assert not in_order(meetings_of(scene), scene, read_structure(scene.program), motions)
     assert driven.met == 2

@@ -181,7 +181,7 @@ def test_nobody_starts_where_only_hard_braking_saves_it() -> None:
         "The ego drives westbound along the road. A truck drives ahead of it in the same lane. "
         "When the TTC is 2.5 s, the truck brakes at 4 m/s^2 to a standstill."
     )
-    result = orchestrate(Request(text, ego="idm", takes=1, replan_hz=4.0))
+    result = orchestrate(Request(text, ego="idm", takes=1, replan_hz=2.0))
     assert result.run is not None
     ego, truck = (result.run.trace.actors[name] for name in ("ego", "truck"))
     offset_m = shared_offset_m(result.scene.routes[EGO], result.scene.routes[1])

@@ -24,7 +24,7 @@ FILES = {
 
 
 def run(ego: str, out: Path | None = None, story: str = "yields, distance") -> Result:
-    return orchestrate(Request(STORIES[story], ego=ego, out=out))
+    return orchestrate(Request(STORIES[story], ego=ego, out=out, replan_hz=2.0))
 
 
 def check_kept(out: Path, until_s: float) -> None:

@@ -21,7 +21,9 @@ def ends(source: str, ego: str) -> Result:
 def test_a_run_goes_on_while_anybody_may_still_do_what_is_asked() -> None:
     """One that only drives is at the end of its route long before the other brakes."""
     leaves = "Actor 2 (leaves):\n- E\n- [t0, go, t1]\n\nConstraints:"
-    driven = drive(PROGRAMS["crossing"](1).replace("Constraints:", leaves) + "A2x(t0) == route_end - 40\n", "idm")
+    driven = drive(
+        PROGRAMS["crossing"](1).replace("Constraints:", leaves) + "A2x(t0) == route_end - 40\n", "idm", replan_s=0.5
+    )
     ends_m = driven.scene.routes[2].landmarks["route_end"]
     traces = driven.run.trace.actors
     left_s = traces["leaves"].time_s[traces["leaves"].s_m > ends_m][0]

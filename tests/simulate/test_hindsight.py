@@ -93,7 +93,7 @@ def test_ego_that_never_comes_to_its_place_is_the_judges_finding() -> None:
 
 
 def test_hindsight_reaches_the_result_of_a_whole_run() -> None:
-    result = driven("stops and goes", "speeder", takes=1, replan_hz=4.0)
+    result = driven("stops and goes", "speeder", takes=1, replan_hz=2.0)
     assert result.status == "failure"
     assert result.hindsight is not None
     assert result.hindsight.answer == "infeasible"

@@ -42,7 +42,7 @@ SAYS = "A0(t2) - A0(t1) == lag_s"
     ],
 )
 def test_the_trigger_comes_so_long_after(ego: str, lag_s: float, lag: str) -> None:
-    result = orchestrate(Request(PROGRAM.replace("{lag}", lag), {"lag_s": lag_s}, ego=ego, seed=1))
+    result = orchestrate(Request(PROGRAM.replace("{lag}", lag), {"lag_s": lag_s}, ego=ego, seed=1, replan_hz=2.0))
     assert result.status == "success"
     assert result.run is not None
     hero = result.run.last_plan.profiles[1]

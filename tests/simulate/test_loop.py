@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
+
 import numpy as np
 import pytest
 
 from scenewright.judge.tolerance import TIGHT
 from scenewright.motion.limits import ACCEL_MAX_MPSS, BRAKE_MAX_MPSS
 from scenewright.orchestrate import orchestrate
-from scenewright.plan.planner import GOOD
+from scenewright.plan.planner import GOOD, Replan
+from scenewright.plan.prediction import EgoSample
 from scenewright.program.types import PieceKind
 from scenewright.request import Request
 from scenewright.roads.bodies import VEHICLE_LENGTH_M
+from scenewright.simulate.builtin import BuiltIn
 from scenewright.simulate.hindsight import ego_left_no_room
-from scenewright.simulate.loop import Run
+from scenewright.simulate.loop import Rates, Run, simulate
+from scenewright.simulate.port import Start
+from scenewright.solve.plan import Plan
 from stories import HERO, STEP_S, STORIES, TICK_S, Scripted, Stage, driven, program
 
 TABLE = [
@@ -84,13 +90,36 @@ def test_interaction_begins_at_the_trigger_and_not_before(story: str, ego: str, 
     assert np.all(sense * after >= 0.6)
 
 
+BEGINS = 180.0, 9.0
+
+
+@dataclass
+class KeepsItsPlan:
+    """Drives heroes by one plan, and keeps when it was asked for another."""
+
+    plan: Plan
+    ego_knots_s: dict[str, float] = field(default_factory=dict)
+    records: list[Replan] = field(default_factory=list)
+    ticks_s: list[float] = field(default_factory=list)
+
+    def tick(self, time_s: float) -> Replan:
+        self.ticks_s.append(time_s)
+        return Replan(time_s, "frozen", "", 0.0, 0.0, "")
+
+    def observe(self, sample: EgoSample) -> None:
+        pass
+
+
 @pytest.mark.parametrize("replan_hz", [0.5, 10.0, 30.0, 40.0, 50.0])
 def test_plans_are_made_again_as_often_as_was_asked(replan_hz: float) -> None:
     """Steps are 0.02 s: of 30 ticks a second some come after one of them, some after two."""
-    run = orchestrate(Request(STORIES["yields, distance"], ego="constant", replan_hz=replan_hz, takes=1)).run
-    assert run is not None
-    ticks = sum(record.time_s > 0.0 for record in run.replans)
-    assert ticks == pytest.approx(run.trace.duration_s * replan_hz, abs=1.0)
+    stage = Stage(STORIES["yields, distance"], Scripted(lambda time_s, speed_mps: 0.0))
+    stage.begin(*BEGINS)
+    keeps = KeepsItsPlan(stage.planner.plan)
+    start = Start.of(stage.scene, stage.ego, BEGINS, keeps.plan.profiles)
+    trace = simulate(BuiltIn(), start, keeps, Rates(STEP_S, 1.0 / replan_hz)).trace
+    assert len(keeps.ticks_s) == pytest.approx(trace.duration_s * replan_hz, abs=1.0)
+    assert np.allclose(np.diff(keeps.ticks_s), 1.0 / replan_hz, atol=STEP_S)
 
 
 @every_run
@@ -148,7 +177,7 @@ def test_after_its_trigger_the_hero_does_not_adapt(story: str) -> None:
         place = next(c for c in stage.conditions if c.moments == {(0, "t0")})
         per_metre, per_speed = place.weights[0]
         assert stage.begin(-(place.constant + per_speed * speed_mps) / per_metre, speed_mps).is_good
-        run = stage.run(tick_s=0.25)
+        run = stage.run(tick_s=0.5)
         trigger_s = trigger_s or hero_knots_s(run)["t1"]
         frozen = [record.status for record in run.replans if record.time_s > trigger_s]
         assert frozen
@@ -168,7 +197,7 @@ def test_hero_that_stands_decides_anew_when_to_go() -> None:
     for then_mpss in (0.0, -1.0):
         stage = Stage(STORIES["stops and goes"], turning_away(then_mpss, np.inf if trigger_s is None else trigger_s))
         assert stage.begin(stage.scene.landmarks_m[0]["stop_line"] - 50.0, 3.0).is_good
-        runs.append(stage.run())
+        runs.append(stage.run(tick_s=0.25))
         trigger_s = trigger_s or hero_knots_s(runs[0])["t1"]
     for run in runs:
         knots = hero_knots_s(run)
@@ -195,7 +224,7 @@ def test_what_follows_on_the_way_is_seen_for_what_it_is_and_takes_no_longer_than
 ) -> None:
     trigger = "A0(t1) == A1(t1)\nA0x(t1) == conflict_point - 60\nA1x(t1) == conflict_point - 45\n"
     text = program("E, N", f"t0, go, t1, {pieces}", f"{trigger}{then}\n")
-    result = orchestrate(Request(text, ego="constant", takes=1))
+    result = orchestrate(Request(text, ego="constant", takes=1, replan_hz=2.0))
     assert result.status == "success"
     assert result.run is not None
     assert result.run.trace.duration_s < 40.0
@@ -220,7 +249,7 @@ def test_who_stood_behind_the_ego_drives_on_again() -> None:
     asked = "A0(t1) == A1(t1)\nA0x(t1) == intersection - 3\nA1x(t1) == intersection - 67\nA1v(t2) == 0\n"
     stage = Stage(program("W", "t0, go, t1, dec, t2, stop, t3, go, t4", asked), Scripted(lambda *_: 0.0))
     assert stage.begin(stage.scene.landmarks_m[0]["intersection"] - 80.0, 12.6).is_good
-    run = stage.run()
+    run = stage.run(tick_s=0.5)
     hero = run.trace.actors["hero"]
     stood_s = hero.time_s[np.flatnonzero(hero.speed_mps < 1e-3)]
     assert len(stood_s) > 0
@@ -233,4 +262,4 @@ def test_a_trigger_is_not_put_off_for_ever_where_a_hero_is_to_be_far_beyond_its_
     """13.5 m/s where 5.6 are posted, whenever that is: ever later was ever cheaper, until it stood."""
     asked = "A1x(t1) == stop_line - 35\nA1v(t1) == 13.5\nA1v(t2) == 0\nA0(t1) == A1(t1)\n"
     text = program("S, W", "t0, go, t1, dec, t2", asked)
-    assert orchestrate(Request(text, ego=ego, takes=1, explain="nothing")).status == "success"
+    assert orchestrate(Request(text, ego=ego, takes=1, explain="nothing", replan_hz=2.0)).status == "success"

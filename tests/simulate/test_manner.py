@@ -37,11 +37,11 @@ def judged_in_manner(scene: Scene, run: Run, text: str) -> Verdict:
 )
 def test_the_loop_keeps_to_the_manner_asked_for(story: str, ego: str, numbers: str, condition: str) -> None:
     text = f"manner:\n{numbers}\n{STORIES[story]}"
-    usual = driven(story, ego)
+    usual = driven(story, ego, replan_hz=2.0)
     assert usual.scene is not None
     assert usual.run is not None
     assert not judged_in_manner(usual.scene, usual.run, text).condition(condition).holds_at(TIGHT)
-    result = orchestrate(Request(text, ego=ego, replan_hz=4.0))
+    result = orchestrate(Request(text, ego=ego, replan_hz=2.0))
     assert result.verdict is not None
     assert [c.id for c in result.verdict.conditions if not c.holds_at(TIGHT)] == []
 

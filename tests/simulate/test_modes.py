@@ -34,7 +34,7 @@ PAPER = {
 
 @cache
 def run(name: str, mode: Mode, ego: str = "dawdler") -> Result:
-    return orchestrate(Request(PAPER[name], ego=ego, mode=mode, seed=1, takes=1, explain="nothing"))
+    return orchestrate(Request(PAPER[name], ego=ego, mode=mode, seed=1, takes=1, explain="nothing", replan_hz=2.0))
 
 
 def off_at_trigger(result: Result) -> float:

@@ -123,7 +123,7 @@ def package(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def run(simulator: str, out: Path, story: str = "yields, distance") -> Result:
-    return orchestrate(Request(STORIES[story], simulator=simulator, takes=1, out=out))
+    return orchestrate(Request(STORIES[story], simulator=simulator, takes=1, out=out, replan_hz=2.0))
 
 
 def manifest(out: Path) -> dict[str, object]:
@@ -209,7 +209,7 @@ def test_what_it_shows_is_its_own_fault_where_nobody_can_drive_on_it(late: type[
 @pytest.mark.parametrize(("name", "words"), [("IsNotClosed", "still there"), ("StartsOnce", "only once")])
 def test_what_was_driven_is_kept_where_it_does_not_close_or_start_again(name: str, words: str, tmp_path: Path) -> None:
     out = tmp_path / "run"
-    result = orchestrate(Request(STORIES["yields, distance"], simulator=name, takes=2, out=out))
+    result = orchestrate(Request(STORIES["yields, distance"], simulator=name, takes=2, out=out, replan_hz=2.0))
     assert (result.status, EXIT_STATUS[result.status]) == ("failed", 2)
     assert words in str(manifest(out)["fault"])
     judge_run_directory(out)

@@ -17,7 +17,7 @@ from scenewright.request import Request
 out, text = Path(sys.argv[1]), sys.stdin.read()
 for ego in sys.argv[2:]:
     name, seed = ego.split("/")
-    orchestrate(Request(text, ego=name, seed=int(seed), out=out / f"{name}-{seed}", explain="nothing"))
+    orchestrate(Request(text, ego=name, seed=int(seed), out=out / f"{name}-{seed}", explain="nothing", replan_hz=2.0))
 """
 
 

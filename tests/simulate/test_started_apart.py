@@ -40,6 +40,6 @@ A1v(t2) == 0
     ],
 )
 def test_both_at_the_start(initial: str, trigger: str) -> None:
-    result = orchestrate(Request(FOLLOWING.format(initial=initial, trigger=trigger), {}, ego="idm"))
+    result = orchestrate(Request(FOLLOWING.format(initial=initial, trigger=trigger), {}, ego="idm", replan_hz=2.0))
     assert result.verdict is not None
     assert result.status == "success"

@@ -137,6 +137,7 @@ def test_command_runs_the_case_again(
     assert tuple(failed) == result.failed_conditions
 
 
+@pytest.mark.usefixtures("replanned_seldom")
 def test_success_carries_its_times() -> None:
     result = counted(YIELDS, "noisy")
     assert result.cause == "success"
@@ -155,12 +156,14 @@ def test_case_that_cannot_be_is_proven_infeasible() -> None:
     assert result.simulated_s == 0.0
 
 
+@pytest.mark.usefixtures("replanned_seldom")
 def test_case_that_the_ego_denies() -> None:
     result = counted(GOES, "speeder")
     assert result.cause == "ego left no room"
     assert result.failed_conditions
 
 
+@pytest.mark.usefixtures("replanned_seldom")
 def test_ego_that_never_comes_to_its_place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "halting_ego.py").write_text(
         "class Halts:\n    def reset(self, start): pass\n\n    def step(self, observation, dt_s):\n"

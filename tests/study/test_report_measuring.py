@@ -129,6 +129,7 @@ def test_the_reports_scenarios_are_sound(name: str) -> None:
     check_program(parse_program(text, name), text, name)
 
 
+@pytest.mark.usefixtures("replanned_seldom")
 def test_loops_run_the_same_cases_in_both_modes(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("scenewright.simulate.hindsight.ego_left_no_room", lambda *_: None)  # longer than a run
     records = loops.measure_loops(Bench(tmp_path), ("noisy",), 1, seed=3)

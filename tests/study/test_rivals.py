@@ -60,9 +60,9 @@ IMPOSSIBLE = YIELDS + "A1v(t1) < 0\n"
 
 
 @cache
-def driven(method: str, ego: str = "constant", text: str = YIELDS, seed: int = 0) -> Result:
+def driven(method: str, ego: str = "constant", text: str = YIELDS) -> Result:
     """Return a run, made once for all tests that look at it."""
-    return run_method(method, Request(text, ego=ego, seed=seed))
+    return run_method(method, Request(text, ego=ego, explain="nothing", replan_hz=2.0))
 
 
 def failed(result: Result) -> list[str]:
@@ -192,7 +192,7 @@ def test_synchronised_hero_comes_nearer_than_one_on_a_fixed_approach() -> None:
 
 # -- rejection ------------------------------------------------------------------------------------------------------
 def test_rejection_stops_at_its_first_success_and_keeps_it() -> None:
-    result = driven("rejection", text=BRAKES, ego="noisy", seed=4)
+    result = driven("rejection", text=BRAKES, ego="noisy")
     held = [take.verdict.holds_at(TIGHT) for take in result.takes]
     assert 1 < len(held) <= 20
     assert held == [False] * (len(held) - 1) + [True]
@@ -200,7 +200,7 @@ def test_rejection_stops_at_its_first_success_and_keeps_it() -> None:
 
 
 def test_rejection_without_success_keeps_the_best_it_has() -> None:
-    result = run_method("rejection:4", Request(YIELDS, ego="idm", seed=3))
+    result = run_method("rejection:4", Request(YIELDS, ego="idm", seed=3, explain="nothing"))
     assert result.status == "failure"
     assert len(result.takes) == 4
     errors = [max(c.normalised_error(LOOSE) for c in take.verdict.conditions) for take in result.takes]
@@ -211,7 +211,7 @@ def test_rejection_without_success_keeps_the_best_it_has() -> None:
 
 def test_rejection_is_repeatable_and_its_seed_counts() -> None:
     def starts(seed: int) -> list[tuple[float, float]]:
-        takes = run_method("rejection:2", Request(YIELDS, seed=seed)).takes
+        takes = run_method("rejection:2", Request(YIELDS, seed=seed, explain="nothing")).takes
         heroes = [take.trace.actors["hero"] for take in takes]
         return [(float(hero.s_m[0]), float(hero.speed_mps[0])) for hero in heroes]
 

@@ -12,7 +12,7 @@ from scenewright.study.timing import EGOS, SCENARIOS, Timing, time_resolves
 
 @pytest.mark.parametrize("text", SCENARIOS)
 def test_scenarios_can_be_orchestrated(text: str) -> None:
-    assert orchestrate(Request(text, ego="constant")).status == "success"
+    assert orchestrate(Request(text, ego="constant", replan_hz=2.0)).status == "success"
 
 
 def test_percentiles() -> None:

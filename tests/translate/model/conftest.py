@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 import threading
 from collections.abc import Iterator
+from functools import cache
 from http.server import ThreadingHTTPServer
 from pathlib import Path
 
@@ -15,6 +16,8 @@ sys.path.insert(0, str(Path(__file__).parent.parent))
 sys.path.insert(0, str(Path(__file__).parent))
 
 from talk import KEY, Handler, Server
+
+from scenewright.translate.model import schema, translator
 
 
 @pytest.fixture
@@ -31,6 +34,16 @@ def server() -> Iterator[Server]:
     http.shutdown()
     http.server_close()
     thread.join()
+
+
+# The form of replies is the same in every request, and takes longer to make than most requests to answer.
+form = cache(schema.reply_schema)
+
+
+@pytest.fixture(autouse=True)
+def form_made_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let the form of replies be made once for all tests."""
+    monkeypatch.setattr(translator, "reply_schema", form)
 
 
 @pytest.fixture(autouse=True)
