@@ -107,7 +107,9 @@ def simulate(
     status, fault, step, astray_m = "finished", None, 0, 0.0
     ending = Ending(scene)
     now = shown(simulator, partial(simulator.reset, start, rates.step_s), start)
-    gc.freeze()  # to look for garbage among all that there is takes as long as several ticks
+    # To look for garbage among all that there is takes as long as several ticks.
+    if frozen := not gc.get_freeze_count():
+        gc.freeze()
     try:
         while True:
             if int(step * ticks_a_step + _EXACT) > int((step - 1) * ticks_a_step + _EXACT) and step:
@@ -132,7 +134,8 @@ def simulate(
         fault = error if isinstance(error, ScenewrightError) else None
         status = "failed" if fault is not None else "interrupted"
     finally:
-        gc.unfreeze()
+        if frozen:
+            gc.unfreeze()
     findings = [_DRIVES_EGO] if simulator.capabilities.drives_ego else list(start.ego.policy.findings)
     if astray_m >= _NOTED_M:
         findings.append(f"In this simulator heroes were up to {astray_m:.2f} m from where they were to be.")
