@@ -146,3 +146,12 @@ def test_a_run_does_not_end_a_hand_s_breadth_before_the_ego_is_at_its_place() ->
     assert result.run is not None
     assert result.run.trace.actors["ego"].s_m[-1] >= end_m + at_m
     assert result.status == "success"
+
+
+def test_a_run_does_not_wait_for_a_moment_of_both_once_the_hero_has_acted() -> None:
+    """The ego comes to the headway within the tolerance, and never quite: such runs went on to the end of the road."""
+    asked = "gap(A0, A1, A1(t0)) == 23\nA1v(t0) == 10\nA0(t1) == A1(t1)\nheadway(A0, A1, t1) == 1.5\nA1v(t2) == 3\n"
+    result = ends(program("W", "t0, go, t1, dec, t2", asked), "idm")
+    assert result.run is not None
+    assert result.status == "success"
+    assert result.run.trace.duration_s < result.run.last_plan.profiles[1].knot_times_s["t2"] + 15.0
