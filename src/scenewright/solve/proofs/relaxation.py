@@ -63,7 +63,7 @@ def _evenly(events: Events, piece: Narrowing) -> Named:
 
 
 def _motion(events: Events, narrowings: Sequence[Narrowing], actor: int, least: NDArray[np.float64]) -> Iterator[Named]:
-    """Yield the law between each two moments of an actor that may be neighbours: that of a piece they surely lie in."""
+    """Yield the law between each two moments of an actor that may be neighbours, also in each piece they may lie in."""
     name, free = events.scene.program.actor(actor).name, events.law_of(actor)
     moves = events.ego.words(name) if actor == EGO else f"{name} {free.words()}"
     bounded = [each for each in (*events.pieces, *narrowings) if each.actor == actor and each.proven is not None]
@@ -77,12 +77,23 @@ def _motion(events: Events, narrowings: Sequence[Narrowing], actor: int, least: 
         besides = tuple(dict.fromkeys(each.origin for each in certain if each.origin != origin))
         reversed_ = [] if least[early, late] >= 0 else [compare("<", times[late], times[early])]
         yield Named(some([*reversed_, reach_formula(events, actor, early, late, law)]), origin, besides)
+        for piece in (each for each in events.pieces if each.actor == actor) if origin == moves else ():
+            if not any(_outside(piece, instant, least) for instant in (early, late)):
+                ends = ("<", times[piece.first]), (">", times[piece.last])
+                elsewhere = [compare(side, times[k], end) for k in (early, late) for side, end in ends]
+                held = reach_formula(events, actor, early, late, law.meet(piece.law))
+                yield Named(some([*elsewhere, *reversed_, held]), piece.origin, besides)
 
 
 def _within(narrowing: Narrowing, early: int, late: int, least: NDArray[np.float64]) -> bool:
     """Whether two moments certainly lie in what is narrower."""
     begun = all(least[instant, early] >= 0 for instant in narrowing.begins())
     return begun and all(least[late, instant] >= 0 for instant in narrowing.ends())
+
+
+def _outside(piece: Narrowing, instant: int, least: NDArray[np.float64]) -> bool:
+    """Whether an instant is certain to be before or after a piece."""
+    return bool(least[instant, piece.first] > _CERTAIN or least[piece.last, instant] > _CERTAIN)
 
 
 def _parted(instants: list[int], early: int, late: int, least: NDArray[np.float64]) -> bool:
