@@ -172,3 +172,13 @@ def test_a_side_without_a_distance_is_told_of_the_start_alone(lead: str, side: s
     assert understand(
         f"{WEST}The hero is {side} at the start. When the ego is 30 m from the intersection, it brakes."
     ).program
+
+
+@pytest.mark.parametrize(
+    "said", ["follows it {} behind", "follows {} behind it", "follows the ego, {} behind", "drives {} behind"]
+)
+@pytest.mark.parametrize(("far", "told"), [("30 m", "gap(A1, A0, t0) == 30"), ("2 s", "headway(A1, A0, t0) == 2")])
+def test_behind_may_be_said_without_whom_and_twice(said: str, far: str, told: str) -> None:
+    when = "When the ego is 50 m before the intersection, the hero accelerates."
+    found = understand(f"The ego drives west. A hero {said.format(far)}. {when}").program.constraints
+    assert told in [print_expression(each.formula) for each in found]

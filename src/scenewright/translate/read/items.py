@@ -186,6 +186,10 @@ def plainly(chunks: list[Chunk]) -> list[Chunk]:
             found.append(replace(chunk, kind="state", value="stands"))
         elif chunk.words in ("through", "across") and (last, following.value) == ("turn", "intersection"):
             found.append(replace(chunk, value="at"))  # "goes straight through the intersection"
+        elif chunk.value == "behind" and last == "amount" and following.kind not in (*PEOPLE, "place", "area"):
+            found.append(replace(chunk, kind="relation"))  # "follows it 20 m behind"
+        elif chunk.value == "behind" and following.kind == "amount" and following.dimension in ("length", "time"):
+            found.append(replace(chunk, kind="state", value="drives"))  # "follows 20 m behind the ego"
         elif chunk.words == "down to" and fast and any(each.kind == "deed" for each in found):
             found.append(replace(chunk, kind="side", value="to"))
         elif chunk.kind != "kept" or following.value not in ("acceleration", "deceleration", "rate"):
