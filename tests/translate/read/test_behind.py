@@ -182,3 +182,16 @@ def test_behind_may_be_said_without_whom_and_twice(said: str, far: str, told: st
     when = "When the ego is 50 m before the intersection, the hero accelerates."
     found = understand(f"The ego drives west. A hero {said.format(far)}. {when}").program.constraints
     assert told in [print_expression(each.formula) for each in found]
+
+
+@pytest.mark.parametrize(
+    ("start", "told"),
+    [
+        ("The ego drives west at 12 m/s behind a hero.", {"gap(A0, A1, t0) > 0", "A0v(t0) == 12"}),
+        ("The ego drives west. A hero drives at 8 m/s ahead of the ego.", {"gap(A0, A1, t0) > 0", "A1v(t0) == 8"}),
+        ("The ego drives west. A hero drives in front of it, 35 m away.", {"gap(A0, A1, t0) == 35"}),
+    ],
+)
+def test_how_fast_somebody_is_may_be_said_in_front_of_behind_whom(start: str, told: set[str]) -> None:
+    found = understand(f"{start} When the ego is 50 m before the intersection, the hero brakes.").program.constraints
+    assert told <= {print_expression(each.formula) for each in found}

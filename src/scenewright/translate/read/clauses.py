@@ -314,7 +314,7 @@ class Taken:
     def _side(self, chunk: Chunk) -> None:
         side, (kind, value) = chunk.value, self.peek()
         is_fast = self.at > 0 and self.chunks[self.at - 1].dimension == "speed"
-        if is_fast and side in _SIDES and kind in ("place", *PEOPLE):
+        if is_fast and side in _SIDES and (kind == "place" or (kind in PEOPLE and side not in ("ahead", "behind"))):
             raise self.left_over(chunk)  # "12 m/s before the stop line"
         if side in ("across", "to") and kind in PEOPLE and (side == "across" or "yields" in self.clause.flags):
             self.at += 1  # "turns left across the ego's path", "yields to the ego"
