@@ -277,3 +277,20 @@ def test_a_courtesy_of_who_stands_or_passes_first_is_held() -> None:
         "does not yield and passes the conflict point before the ego",
     ):
         assert all("asks for" not in each for each in read(f"{OUT}{AT_10}the car {does}.").assumptions), does
+
+
+@pytest.mark.parametrize("rest", ["standstill", "a standstill", "rest"])
+def test_who_does_something_from_a_standstill_has_stood(rest: str) -> None:
+    for does, kind in (("starts", "go"), ("sets off", "go"), ("accelerates", "acc"), ("accelerates to 8 m/s", "acc")):
+        said = does.replace(" to", f" from {rest} to") if " to" in does else f"{does} from {rest}"
+        found = understand(f"{OUT}{AT_10}the car {said}.").program
+        assert [each.value for each in found.actors[1].sketch.pieces][:2] == ["stop", kind], said
+    with pytest.raises(UnknownWordsError, match="brakes from"):
+        understand(f"{OUT}{AT_10}the car brakes from {rest}.")
+
+
+def test_at_the_same_speed_is_as_fast() -> None:
+    fast, same = (formulas(reading_of(f"{LEADS}The van is {how} the ego. {AT_20}the van brakes."))
+                  for how in ("as fast as", "at the same speed as"))  # fmt: skip
+    assert fast == same
+    assert "A1v(t0) == A0v(t0)" in fast

@@ -198,6 +198,8 @@ class Taken:
                 clause.deed, self.deed_at = value, self.at
                 rests = chunk.words.endswith((" off", " away", " out")) or chunk.words.startswith(("start", "resum"))
                 clause.notes |= {"sets off"} if rests and value == st.Verb.DRIVE else set()  # who does stands before
+            case "from rest" if clause.phase == "begins" or clause.deed in (st.Verb.DRIVE, st.Verb.SPEED_UP):
+                clause.notes.add("sets off")
             case "phase" if clause.phase is None:
                 clause.phase = value
             case "ordinal" if all(each.kind != "ordinal" for each in self.chunks[: self.at]):
