@@ -151,7 +151,7 @@ def test_trying_ends_with_the_simulated_time() -> None:
         return False
 
     driven, told, _ = tried(for_long)
-    assert (driven, told) == (2, 1), "the second is not driven to its end"
+    assert (driven, told) == (4, 3), "the last is not driven to its end"
 
 
 def test_one_that_takes_long_leaves_time_for_others() -> None:

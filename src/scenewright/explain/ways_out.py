@@ -23,7 +23,7 @@ from scenewright.solve.suggestions import Lever, levers
 
 # No more runs than this, of no more simulated seconds than this in all, nor in each: who waits for an answer waits for
 # them, too, and one that waits for a minute is no reason to try none of the others.
-_TRIES, _ALL_S, _EACH_S = 6, 60.0, 40.0
+_TRIES, _ALL_S, _EACH_S = 6, 120.0, 50.0
 _ENOUGH = 1  # who waits is helped by one
 _SAME = 1e-6  # a number that was written and one that is required of it
 # Tried of each number: half and twice it, and a step between; whoever wants the edge asks `check`.
