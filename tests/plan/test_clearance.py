@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from scenarios import BRAKES, YIELDS, example, limits_of, read_structure
-from scenewright.plan.clearance import Clearance
+from scenewright.plan.foresight import Clearance
 from scenewright.plan.planner import Planner
 from scenewright.plan.prediction import Driver
 from scenewright.program.text import parse_program

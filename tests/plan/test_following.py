@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from followers import CRUISE_MPS, SIGNS, idm
+from hypothesis import given
+from hypothesis import strategies as st
 
 from scenewright.motion.profile import Profile, chain
 from scenewright.plan.following import Leader, foresee_follower
@@ -59,3 +61,26 @@ def test_a_hero_that_is_followed_hardly_stirs_before_its_trigger(ego: str) -> No
     times = np.linspace(0.0, hero.knot_times_s["t1"] - 1e-3, 500)
     changed_mps = np.abs(np.diff([hero.state(float(t))[1] for t in times])).sum()
     assert changed_mps < 0.8
+
+
+@given(
+    at_s=st.floats(1.5, 8.0),
+    from_s=st.floats(0.0, 1.0),
+    further_m=st.floats(-2.0, 2.0),
+    faster_mps=st.floats(-1.0, 1.0),
+    ever_faster_mpss=st.floats(-0.5, 0.5),
+)
+def test_a_motion_otherwise_is_so_much_further_on_as_its_speeds_make_it(
+    at_s: float, from_s: float, further_m: float, faster_mps: float, ever_faster_mpss: float
+) -> None:
+    motion = Profile(chain(0.0, 0.0, 8.0, [(3.0, -1.0, 0)]))
+    other = Leader(motion, 0.0, from_s, further_m, faster_mps, ever_faster_mpss)
+    assert other.state(from_s)[0] - motion.state(from_s)[0] == pytest.approx(further_m)
+    times = np.linspace(from_s, at_s, 400)
+    places, speeds = np.array([other.state(float(t))[:2] for t in times]).T
+    travelled = np.sum(0.5 * (speeds[1:] + speeds[:-1]) * np.diff(times))
+    assert places[-1] - places[0] == pytest.approx(travelled, abs=1e-2)
+    since = at_s - from_s
+    expected = further_m + (faster_mps + 0.5 * ever_faster_mpss * since) * since
+    assert places[-1] - motion.state(at_s)[0] == pytest.approx(expected)
+    assert speeds[-1] - motion.state(at_s)[1] == pytest.approx(faster_mps + ever_faster_mpss * since)

@@ -64,14 +64,14 @@ def test_a_hero_of_which_it_is_told_where_it_begins_keeps_to_the_side_of_the_ego
     ego = foresight(program("W", "t0, go, t1, dec, t2", f"{told}A0(t1) == A1(t1)\nA1v(t2) == 3\n"), ConstantSpeed())
     motions = leading(15.0, 6.0) | {EGO: ego.at_first()}  # passed by the ego after 2.5 s
     assert ego.take_sides(motions, {1: "t1"})
-    assert ego.lanes(motions, 0.0, motions[EGO], first=True).apart[1][0] == side
+    assert ego.on_lane[1].side == side
 
 
 @pytest.mark.parametrize("first", [True, False])
 def test_how_a_hero_is_answered_is_what_is_foreseen_of_it_where_it_is_otherwise(first: bool) -> None:
     follower, motions = foresight(BRAKES_GAP, Driver(SIGNS)), leading(18.0, 10.0)
     prediction = follower.foreseen(motions)
-    answer = follower.lanes(motions, 0.0, prediction, first=first).answers[1]
+    answer = follower.answers(motions, 0.0, prediction, first=first)[1]
     if first:
         moved = Profile(chain(0.0, 168.1, 10.0, [(8.0, 0.0, 0)]), motions[1].knot_times_s)
     else:

@@ -35,7 +35,7 @@ def test_each_comes_evenly_to_where_its_trigger_wants_it(program: str) -> None:
         for hero in planner.scene.program.heroes:
             natural_mps = planner.limits[hero.id].natural_approach_speed_mps
             assert found[hero.id].state(3.0)[1:] == pytest.approx((pace * natural_mps, 0.0))
-            if planner._times.ego_decides(hero):
+            if hero.id in planner._times.sides:
                 at_s = planner._times.instant_s(hero, 0.0, ego, None)
                 instant = planner.structure.triggers[hero.id]
                 here = [c for c in planner.conditions if c.moments <= instant and hero.id in c.weights]

@@ -83,7 +83,7 @@ def test_what_is_missed_is_told_in_tight_tolerances() -> None:
     z = problem.guess.copy()
     _, _, missed = problem.rows(z)
     assert missed.by < 0.05, "it is a plan that was found good"
-    place = problem._starts[HERO].place
+    place = problem._starts[HERO][0].unknown
     assert place is not None
     z[place] += 3.0  # everywhere 3 m further on: six tight tolerances at the trigger
     assert problem.rows(z)[2].by == pytest.approx(6.0, abs=0.1)

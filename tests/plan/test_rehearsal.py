@@ -11,8 +11,7 @@ from scenewright.drive.protocol import EgoStart, Observation
 from scenewright.judge.tolerance import TIGHT
 from scenewright.motion.profile import Profile, chain
 from scenewright.orchestrate import orchestrate
-from scenewright.plan.prediction import ConstantSpeed
-from scenewright.plan.rehearsal import Rehearsed
+from scenewright.plan.prediction import ConstantSpeed, Rehearsed
 from scenewright.request import Request
 from stories import STORIES
 

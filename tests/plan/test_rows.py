@@ -39,10 +39,10 @@ def planned(text: str) -> tuple[Problem, Array]:
 
 def moved(problem: Problem, z: Array, **by: float) -> Array:
     """Return the values with the hero's first place, its first speed, or its accelerations in pieces changed."""
-    z, start = z.copy(), problem._starts[HERO]
+    z, start = z.copy(), dict(zip(("place", "speed"), problem._starts[HERO], strict=True))
     for what, much in by.items():
-        if what in ("place", "speed"):
-            z[getattr(start, what)] += much
+        if what in start:
+            z[start[what].unknown] += much
             continue
         for leg in problem._legs[HERO]:
             if leg.kind is PieceKind(what):
@@ -151,8 +151,8 @@ def test_two_on_one_lane_are_apart_before_the_trigger(side: float) -> None:
     hero, ego = planner.plan.profiles[HERO], planner.plan.profiles[0]
     trigger_s = hero.knot_times_s["t1"]
     problem, z = planned(text)
-    offset_m = problem.now.lanes.apart[HERO][1]
-    assert problem.now.lanes.apart[HERO][0] == side
+    offset_m = problem.now.on_lane[HERO].offset_m
+    assert problem.now.on_lane[HERO].side == side
     for time_s in np.linspace(0.0, trigger_s, 50):
         room_m = side * (hero.state(float(time_s))[0] + offset_m - ego.state(float(time_s))[0])
         assert room_m > VEHICLE_LENGTH_M
@@ -165,7 +165,7 @@ def test_who_is_waited_for_can_be_waited_for() -> None:
     """Long before its trigger, of which the ego decides, a hero is where it could still stop and set off again."""
     problem = problem_of(YIELDS, s_m=100.0)
     z, trigger = problem.guess, problem.asked.trigger(HERO)
-    assert HERO in problem.now.waits
+    assert HERO in problem.now.triggers_s
     assert trigger is not None
     shot = problem.shots(z)[HERO]
     node = shot.first_node[problem._nodes[HERO][trigger]]

@@ -1,14 +1,13 @@
-"""What a plan starts from: the ego as it was seen and is foreseen, and a motion that is a little otherwise."""
+"""What a plan starts from: the ego as it was seen and is foreseen."""
 
 from __future__ import annotations
 
-import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from scenewright.motion.profile import Profile, chain
-from scenewright.plan.situation import Otherwise, SeenAndForeseen
+from scenewright.plan.situation import SeenAndForeseen
 
 STEP_S = 0.02
 
@@ -41,26 +40,3 @@ def test_the_ego_is_where_it_was_seen_and_then_where_it_is_foreseen(accels: list
 def test_before_anything_was_seen_it_was_on_its_way() -> None:
     ego = SeenAndForeseen(seen([0.0, 0.0]), Profile(chain(0.04, 0.4, 10.0, [(1.0, 0.0, 0)])))
     assert ego(-1.0)[:2] == pytest.approx((-10.0, 10.0))
-
-
-@given(
-    at_s=st.floats(1.5, 8.0),
-    from_s=st.floats(0.0, 1.0),
-    further_m=st.floats(-2.0, 2.0),
-    faster_mps=st.floats(-1.0, 1.0),
-    ever_faster_mpss=st.floats(-0.5, 0.5),
-)
-def test_a_motion_otherwise_is_so_much_further_on_as_its_speeds_make_it(
-    at_s: float, from_s: float, further_m: float, faster_mps: float, ever_faster_mpss: float
-) -> None:
-    motion = Profile(chain(0.0, 0.0, 8.0, [(3.0, -1.0, 0)]))
-    other = Otherwise(motion, from_s, further_m, faster_mps, ever_faster_mpss)
-    assert other.state(from_s)[0] - motion.state(from_s)[0] == pytest.approx(further_m)
-    times = np.linspace(from_s, at_s, 400)
-    places, speeds = np.array([other.state(float(t))[:2] for t in times]).T
-    travelled = np.sum(0.5 * (speeds[1:] + speeds[:-1]) * np.diff(times))
-    assert places[-1] - places[0] == pytest.approx(travelled, abs=1e-2)
-    since = at_s - from_s
-    expected = further_m + (faster_mps + 0.5 * ever_faster_mpss * since) * since
-    assert places[-1] - motion.state(at_s)[0] == pytest.approx(expected)
-    assert speeds[-1] - motion.state(at_s)[1] == pytest.approx(faster_mps + ever_faster_mpss * since)

@@ -31,8 +31,7 @@ def times_of(text: str) -> tuple[TriggerTimes, Actor]:
 def times(text: str = YIELDS_DISTANCE) -> tuple[TriggerTimes, Actor, float]:
     """Return when the trigger of a hero that is to yield comes, and the ego's place (m) at it, at no speed."""
     found, hero = times_of(text)
-    side = found.ego_side(hero)
-    assert side is not None
+    side = found.sides[hero.id]
     return found, hero, -side.constant / side.weights[EGO][0]
 
 
@@ -52,7 +51,7 @@ def times(text: str = YIELDS_DISTANCE) -> tuple[TriggerTimes, Actor, float]:
 def test_who_decides_when_a_trigger_comes(text: str, alone: bool) -> None:
     """A distance is for both to keep, unless the program says where the hero is then and the ego is ahead of it."""
     found, hero = times_of(text)
-    assert (found.ego_side(hero) is not None) is alone
+    assert (hero.id in found.sides) is alone
 
 
 @given(speed_mps=st.floats(0.5, 15.0), far_m=st.floats(1.0, 60.0))
@@ -105,8 +104,7 @@ def test_an_ego_that_stands_too_far_off_is_waited_for(short_m: float) -> None:
 def test_a_time_that_was_met_between_two_ticks_is_not_waited_for_again(late_m: float, due: bool) -> None:
     """An ego that slows down later is as near in time once more, when it stops; the trigger was to come now."""
     found, hero, place_m = times(YIELDS_TIME)
-    side = found.ego_side(hero)
-    assert side is not None
+    side = found.sides[hero.id]
     lead_s = side.weights[EGO][1] / side.weights[EGO][0]
     began_m, way = place_m - lead_s * 4.0 + late_m, [(1.5, 0.0, 0), (4.0 / 1.5, -1.5, 0), (20.0, 0.0, 0)]
     ego = Profile(chain(NOW_S, began_m, 4.0, way))

@@ -13,7 +13,7 @@ from scenewright.drive.protocol import EgoStart, Observation
 from scenewright.judge.tolerance import TIGHT
 from scenewright.motion.profile import Profile, chain
 from scenewright.orchestrate import begin, orchestrate
-from scenewright.plan.rehearsal import Rehearsed
+from scenewright.plan.prediction import Rehearsed
 from scenewright.program.starts import HARD_MPSS
 from scenewright.program.types import EGO
 from scenewright.request import Request, Stages

@@ -131,6 +131,11 @@ class Profile:
             rest.append(Segment(time_s, 0.0, position, speed, 0.0, self.segments[-1].piece))
         return Profile(tuple(rest), self.knot_times_s)
 
+    def until(self, time_s: float) -> list[Segment]:
+        """Return the segments up to a time, of which the last may end sooner: there may be none."""
+        begun = [segment for segment in self.segments if segment.start_s < time_s - 1e-9]
+        return [each if each.end_s <= time_s else each.part(each.start_s, time_s) for each in begun]
+
     def held(self, at_s: float, for_s: float) -> Profile:
         """Return the motion with its speed at `at_s` held for `for_s` seconds; what follows comes later and further on.
 

@@ -35,7 +35,7 @@ def goes_on(
     rate, change_mps = max(needs, default=(0.0, 0.0))
     if accel == 0.0 and rate < wanted.accel_mpss:
         return motion
-    driven = [s if s.end_s <= time_s else s.part(s.start_s, time_s) for s in motion.segments if s.start_s < time_s]
+    driven = motion.until(time_s)
     last = driven[-1]
     if last.end_s < time_s:
         last = Segment(last.end_s, time_s - last.end_s, last.end_s_m, last.end_speed_mps, 0.0, last.piece)

@@ -102,16 +102,10 @@ class Asked:
         self.narrowings = tuple(self.lowering.narrowings)
         self.times = [number_of(time) for time in self.events.times]
         self._scale = np.array([*(TIGHT[unknown.kind] for unknown in self.events.unknowns), 0.0])
-        atoms = self._formulas.atoms
-        times_of = [self._times_of(atom) for atom in atoms]
-        self._orders = [EGO in whose for whose in times_of]
-        self._given = np.array([self._is_given(atom) for atom in atoms], dtype=bool)
-        alone = [len(whose) == len(atom.left.terms) == 2 for whose, atom in zip(times_of, atoms, strict=True)]
-        looked_at = {number_of(state.place) for (_, at), state in self.events.states.items() if at in self.looks}
-        of_looks = [any(not looked_at.isdisjoint(key) for key in atom.left.terms) for atom in atoms]
-        heroes_alone = [two and EGO not in whose for two, whose in zip(alone, times_of, strict=True)]
-        self._spares = [_SPARE * (early or kept) for early, kept in zip(heroes_alone, of_looks, strict=True)]
-        self._quotients = list(self._quotients_of(atoms))
+        read = [self._read(atom) for atom in self._formulas.atoms]
+        self._orders, self._spares = [each[0] for each in read], [each[1] for each in read]
+        self._given = np.array([each[2] for each in read], dtype=bool)
+        self._quotients = list(self._quotients_of(self._formulas.atoms))
         self.caps = {
             hero.id: caps_of(scene.routes[hero.id], scene.road_map, limits[hero.id], self.wanted.lateral_mpss)
             for hero in scene.program.heroes
@@ -223,27 +217,25 @@ class Asked:
                 short_mps = self.wanted.moves_mps - float(point[speed])
                 yield Row(short_mps / TIGHT["speed"], -slopes[speed] / TIGHT["speed"], equal=False, order=False)
 
-    def _is_given(self, atom: Atom) -> bool:
-        """Whether a comparison says that a look is outside of a stretch of time, or that there is nothing of one.
+    def _read(self, atom: Atom) -> tuple[bool, float, bool]:
+        """Return whether a comparison is of times, the ego's among them, how much is to spare, and whether it is given.
 
-        What is asked for some time is not done by ending it sooner.
+        A moment that is "2 s later" by what it is defined as is not one that is to be earlier or later. That a look is
+        outside of a stretch of time, or that there is nothing of one, is given: what is asked for some time is not done
+        by ending it sooner.
         """
+        keys, states, looks = [key for key in atom.left.terms if key], self.events.states, set(self.looks)
         instants = {number: instant for instant, number in enumerate(self.times) if number is not None}
-        if any(len(key) > 1 or key[0] not in instants for key in atom.left.terms if key):
-            return False
-        found = {instants[key[0]] for key in atom.left.terms if key}
-        return not found.isdisjoint(self.looks) or any(found == set(ends) for ends in self.stretches)
-
-    def _times_of(self, atom: Atom) -> set[int]:
-        """Return whose times a comparison is of, the ego's where they are its alone; nobody's where it is of more.
-
-        A moment that is "2 s later" by what it is defined as is not one that is to be earlier or later.
-        """
-        keys = [key for key in atom.left.terms if key]
-        instants = {number: instant for instant, number in enumerate(self.times) if number is not None}
-        if any(len(key) != 1 or instants.get(key[0]) in (None, *self.events.defined, *self.looks) for key in keys):
-            return set()
-        return {max((a for a, k in self.events.states if k == instants[key[0]]), default=-1) for key in keys}
+        found = {instants.get(key[0]) if len(key) == 1 else None for key in keys}
+        given = None not in found and (not found.isdisjoint(looks) or any(found == set(e) for e in self.stretches))
+        if found & {None, *self.events.defined, *looks}:
+            whose = set[int]()
+        else:  # the ego's where they are its alone
+            whose = {max((actor for actor, at in states if at == instant), default=-1) for instant in found}
+        early = len(whose) == len(atom.left.terms) == 2 and EGO not in whose
+        looked_at = {number_of(state.place) for (_, at), state in states.items() if at in looks}
+        kept = any(not looked_at.isdisjoint(key) for key in keys)
+        return EGO in whose, _SPARE * (early or kept), given
 
     def _quotients_of(self, atoms: Sequence[Atom]) -> Iterator[tuple[int, int, int]]:
         """Yield atoms that compare times, a place over a speed: their numbers, those of the place and of the speed."""
@@ -282,6 +274,11 @@ class Caps:
         """Return one of them at places, and how it changes from there (1/s)."""
         before, here, after = np.interp(np.array([s_m - _STEP_M, s_m, s_m + _STEP_M]), self.places, speeds_mps)
         return here, after - before
+
+    def above(self, speeds_mps: Array, s_m: Array, v: Array, d_s: Array, d_v: Array) -> tuple[Array, Array]:
+        """Return by how much one is faster than one of them (m/s), and the slopes of that, from those of s_m and v."""
+        here, slope = self.at(s_m, speeds_mps)
+        return v - here, d_v - slope[:, None] * d_s
 
 
 def caps_of(route: Route, road_map: RoadMap, limits: Limits, comfortable_mpss: float) -> Caps:

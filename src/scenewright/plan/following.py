@@ -11,7 +11,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import takewhile
-from typing import Protocol
 
 from scenewright.drive.speeds import following_accel
 from scenewright.motion.profile import Profile, chain
@@ -29,46 +28,38 @@ _OWN_REASONS_MPSS = 0.3
 _follows = partial(following_accel, accel_mpss=_ACCEL_MPSS, brake_mpss=_BRAKE_MPSS, standstill_m=_STANDSTILL_M)
 
 
-class Moving(Protocol):
-    """A motion along a route."""
-
-    def state(self, time_s: float, /) -> tuple[float, float, float]:
-        """Return place (m), speed (m/s) and acceleration (m/s^2) at a time."""
-        ...
-
-
 @dataclass(frozen=True, slots=True)
 class Leader:
-    """A hero that drives ahead of the ego on its lane.
+    """A hero that drives ahead of the ego on its lane, as planned, or otherwise from a time on.
 
-    Attributes
-    ----------
-    motion
-        Its past and planned motion.
-    offset_m
-        What to add to its arc length to compare it with the ego's.
+    `motion` is its past and planned one; `offset_m` is added to its arc length to compare it with the ego's. From a
+    time on it is so much further on (m), so much faster (m/s), and faster by so much each second (m/s^2).
     """
 
-    motion: Moving
+    motion: Profile
     offset_m: float
+    from_s: float = 0.0
+    further_m: float = 0.0
+    faster_mps: float = 0.0
+    ever_faster_mpss: float = 0.0
+
+    def state(self, time_s: float) -> tuple[float, float]:
+        """Return its place on the ego's way (m) and its speed (m/s) at a time."""
+        s_m, speed_mps, _ = self.motion.state(time_s)
+        since, more = max(0.0, time_s - self.from_s), self.ever_faster_mpss
+        s_m += self.further_m + (self.faster_mps + 0.5 * more * since) * since
+        return s_m + self.offset_m, speed_mps + self.faster_mps + more * since
 
     def ahead(self, time_s: float, s_m: float) -> tuple[float, float]:
         """Return the room (m) between the bumpers for an ego at `s_m`, and the leader's speed (m/s)."""
-        place_m, speed_mps, _ = self.motion.state(time_s)
-        return place_m + self.offset_m - s_m - VEHICLE_LENGTH_M, speed_mps
+        place_m, speed_mps = self.state(time_s)
+        return place_m - s_m - VEHICLE_LENGTH_M, speed_mps
 
 
 def foresee_follower(base: Profile, history: Sequence[EgoSample], leader: Leader, cruise_mps: float) -> Profile:
-    """Return how the ego goes on behind `leader`; `base` where it is not behind it.
+    """Return how the ego goes on behind `leader`; where it is not behind it `base`, how it would go on alone.
 
-    Parameters
-    ----------
-    base
-        How it would go on alone.
-    history
-        Its states up to now.
-    cruise_mps
-        How fast people drive there.
+    `history` are its states up to now, `cruise_mps` is how fast people drive there.
     """
     time_s, start_m, start_mps, now_mpss = history[-1]
     cruise_mps = max(cruise_mps, 1.02 * start_mps)

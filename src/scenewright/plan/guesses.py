@@ -24,12 +24,8 @@ def even_motions(
 ) -> tuple[dict[int, Profile], bool]:
     """Return a motion for each hero, and whether a condition tells the place of each: so that they tell who goes first.
 
-    Parameters
-    ----------
-    witness
-        How it can happen, if that is known: where no condition tells a place, it is so far from the ego as there.
-    pace
-        How fast heroes come, as a share of the speed that is natural on their way.
+    They come at a share `pace` of the speed that is natural on their way. Where no condition tells a place, it is so
+    far from the ego as in the witness, if there is one.
     """
     found: dict[int, Profile] = {}
     times_s: dict[int, float] = {}
@@ -38,7 +34,7 @@ def even_motions(
         instant, at_s = asked.until(hero.id), JOINT_S
         share = asked.wanted.natural_share if instant is None else pace  # who acts at no moment would just stay slow
         speed_mps = share * asked.limits[hero.id].natural_approach_speed_mps
-        if times.ego_decides(hero):
+        if hero.id in times.sides:
             at_s = times.instant_s(hero, 0.0, prediction, None)
         elif hero.id not in asked.structure.triggers and instant is not None:  # it hangs on others that came before
             at_s = max((then_s + asked.least_s[then, instant] for then, then_s in times_s.items()), default=0.0)

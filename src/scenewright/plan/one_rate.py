@@ -335,8 +335,7 @@ class OneRate:
             s_m, speed, past = here.place.value(values), here.speed.value(values), list[Segment]()
         else:
             s_m, speed, _ = driven.state(now_s)
-            begun = [segment for segment in driven.segments if segment.start_s < now_s - 1e-9]
-            past = [s if s.end_s <= now_s else s.part(s.start_s, now_s) for s in begun]
+            past = driven.until(now_s)
         at_s = now_s
         for leg in self._legs[actor.id]:
             for _, late, rate in () if leg.last in question.passed else leg.parts(self.now):

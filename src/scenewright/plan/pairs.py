@@ -40,14 +40,9 @@ _NEVER = np.inf
 class Meeting:
     """Where the ways of two heroes meet, of whom `first` goes first.
 
-    Attributes
-    ----------
-    zones_m
-        Stretches of their ways that they must not both be in; None where they share a lane from the start.
-    lane_m
-        From where to where on each way they share a lane; None where they only cross.
-    offset_m
-        What to add to the second's arc length there to compare it with the first's.
+    They must not both be in the stretches `zones_m` of their ways; None where they share a lane from the start. On each
+    way they share one from where to where `lane_m` says; None where they only cross. There `offset_m` is added to the
+    second's arc length to compare it with the first's.
     """
 
     first: int
@@ -198,19 +193,10 @@ class Way:
 class PairRows:
     """The bounds of all meetings, for values `z` of all unknowns.
 
-    Attributes
-    ----------
-    meetings
-        In their order, each with the unknown moment at which the first is out and the second not yet in; None where
-        the first never is, so that the second is to stay out.
-    ways
-        Of all heroes.
-    times
-        When lanes are looked at; the last is the end of all plans.
-    driven
-        What ways that nothing can change are at these times, as `Way.along` gives it.
-    near_m
-        Who has more room than this in a lane is not looked at.
+    Each of the `meetings` is there with the unknown moment at which the first is out and the second not yet in; None
+    where the first never is, so that the second is to stay out. Lanes are looked at at `times`, of which the last is
+    the end of all plans, but not where there is more room than `near_m`. `driven` tells of ways that nothing can change
+    where these are then, as `Way.along` does.
     """
 
     meetings: Sequence[tuple[Meeting, int | None]]

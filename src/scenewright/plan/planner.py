@@ -79,15 +79,10 @@ class Attempt:
 
 @dataclass(frozen=True, slots=True)
 class _Found:
-    """A plan, how and for what problem it was found, all its moments by instant, and its other unknowns, by number.
-
-    And who goes first wherever heroes meet.
-    """
+    """A plan, how and for what problem it was found, and who goes first wherever heroes meet."""
 
     plan: Plan
     solution: Solution
-    moments_s: Mapping[int, float]
-    others: Mapping[int, float]
     problem: Problem
     meetings: tuple[Meeting, ...]
 
@@ -143,15 +138,17 @@ class Planner(Standing):
         best = self._turned(best)
         self._keep(best)
         self._meetings = needed(best.meetings)
-        self._joint_s = {h: self.plan.profiles[h].knot_times_s[self._name(h)] for h in self.structure.triggers}
+        triggers = {hero: self.structure.trigger_knot(hero) or "" for hero in self.structure.triggers}
+        self._joint_s = {hero: self.plan.profiles[hero].knot_times_s[name] for hero, name in triggers.items()}
         missed, wall_s = best.solution.missed, time.perf_counter() - started
         foreseen = self.plan.profiles[EGO]
         self.records = [Replan(0.0, _status(missed.by), "daqp", wall_s, missed.by, "", foreseen)]
         return Attempt(self.plan, missed, self._steps)
 
     def _keep(self, found: _Found) -> None:
-        self.plan, self._moments_s, self._others = found.plan, found.moments_s, found.others
-        self._meetings = found.meetings
+        self.plan, self._meetings, z = found.plan, found.meetings, found.solution.z
+        self._moments_s = {instant: moment.value(z) for instant, moment in enumerate(found.problem.moments)}
+        self._others = found.problem.others(z)
 
     def _planned_first(self, prediction: Profile, guesses: Motions, trusted: float = 1.0) -> _Found:
         """Return a first plan that is found from guesses: motions, or other plans with all their knots.
@@ -254,21 +251,17 @@ class Planner(Standing):
         self._steps += solution.steps
         times = [moment.value(solution.z) for moment in problem.moments]
         profiles = {hero: drive.motion for hero, drive in problem.now.heroes.items()}
+        knots_s = {
+            actor.id: {name: times[self._asked.knot(actor.id, name)] for name in actor.sketch.knots}
+            for actor in self.scene.program.actors
+        }
         for hero, shot in problem.shots(solution.z).items():
-            sketch = self.scene.program.actor(hero).sketch
             drive = problem.now.heroes.get(hero)
-            past = [] if drive is None else [
-                segment if segment.end_s <= drive.begin_s else segment.part(segment.start_s, drive.begin_s)
-                for segment in drive.motion.segments
-                if segment.start_s < drive.begin_s - 1e-9
-            ]  # fmt: skip
-            profiles[hero] = profile_of(
-                shot, {name: times[self._asked.knot(hero, name)] for name in sketch.knots}, past
-            )
-        names = self.scene.program.ego.sketch.knots
-        profiles[EGO] = Profile(prediction.segments, {name: times[self._asked.knot(EGO, name)] for name in names})
+            past = [] if drive is None else drive.motion.until(drive.begin_s)
+            profiles[hero] = profile_of(shot, knots_s[hero], past)
+        profiles[EGO] = Profile(prediction.segments, knots_s[EGO])
         plan = Plan(profiles, solution.missed.by, problem.parameters(solution.z))
-        return _Found(plan, solution, dict(enumerate(times)), problem.others(solution.z), problem, self._meetings)
+        return _Found(plan, solution, problem, self._meetings)
 
     @property
     def _enough(self) -> float:

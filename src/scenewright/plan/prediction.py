@@ -12,6 +12,8 @@ from dataclasses import dataclass
 from itertools import pairwise, takewhile
 from typing import Protocol
 
+import numpy as np
+
 from scenewright.errors import InputError
 from scenewright.motion.limits import Signs
 from scenewright.motion.profile import Profile, chain
@@ -42,6 +44,12 @@ _GENTLE_MPSS, _DISREGARD_MPSS, _BRAKES_MPSS, _NO_WAY_M = 1.7, 2.8, 0.5, 1e-6
 # One that stands goes on standing for so long, counted anew at every moment. Nobody stands for ever: a hero that
 # believed so would give up its place; and one that did not wait would creep past it. Then it sets off to this speed.
 _STANDS_S, _SETS_OFF_MPSS, _SETS_OFF_TO_MPS, _STANDS_MPS = 1.5, 1.2, 5.0, 0.05
+# A drive is looked at so often (s) for the first seconds, then that often: enough for what is planned again by then.
+_FINE_S, _FINE_STEP_S, _COARSE_S = 4.0, 0.1, 0.4
+_FINELY_S = np.arange(0.0, _FINE_S, _FINE_STEP_S)
+_STANDING_MPS = 0.3
+_ALIKE_MPS = 1.0  # who is faster or slower by more than that drives otherwise
+_OTHERWISE_S = 2.0  # after which one that is a little faster or slower than it was there drives as it did; chosen
 
 
 class Predictor(Protocol):
@@ -66,13 +74,8 @@ class ConstantSpeed:
 class Driver:
     """The ego accelerates for a moment as it does now; it slows down where people do; who stops sets off again.
 
-    Attributes
-    ----------
-    signs
-        How fast people drive there: one that speeds up on purpose goes on to that, as the intelligent driver model's
-        free road has it.
-    places
-        ``(s_m, speed_mps)``: where it slows down to what; none where nothing is known of its road.
+    One that speeds up on purpose goes on to what `signs` say that people drive there, as the intelligent driver model's
+    free road has it. `places` are ``(s_m, speed_mps)`` where it slows down to what; none where nothing is known.
     """
 
     signs: Signs
@@ -163,6 +166,48 @@ def _needed_mpss(places: Sequence[tuple[float, float]], s_m: float, speed_mps: f
         if speed_mps > most_mps and place_m > s_m + _NO_WAY_M:
             needed = max(needed, (speed_mps**2 - most_mps**2) / (2.0 * (place_m - s_m)))
     return needed
+
+
+@dataclass(frozen=True, slots=True)
+class Rehearsed:
+    """The ego soon goes on as it did when it was last where it is now.
+
+    How it drove is `drive`. Where it is elsewhere, or faster or slower by too much, `base` is believed.
+    """
+
+    drive: Profile
+    base: Predictor
+
+    def predict(self, history: Sequence[EgoSample]) -> Profile:
+        """Return the rest of the drive from where the ego is, beginning with the speed that it has."""
+        time_s, s_m, speed_mps, _ = history[-1]
+        then_s = self._when(history)
+        if then_s is None or abs(self.drive.state(then_s)[1] - speed_mps) > _ALIKE_MPS:
+            return self.base.predict(history)
+        at_s = np.concatenate([_FINELY_S, np.arange(_FINE_S, self.drive.end_s - then_s, _COARSE_S)])
+        then = np.array([self.drive.state(then_s + soon_s)[1] for soon_s in at_s])
+        speeds = np.maximum(0.0, then + (speed_mps - then[0]) * np.maximum(0.0, 1.0 - at_s / _OTHERWISE_S))
+        accels = np.diff(speeds) / np.diff(at_s)
+        moves = [(lasts_s, accel, 0) for lasts_s, accel in zip(np.diff(at_s).tolist(), accels.tolist(), strict=True)]
+        return Profile(chain(time_s, s_m, speed_mps, moves))
+
+    def repeats(self, again: Profile) -> bool:
+        """Whether another drive is alike all along: how one that decides anew each time drove tells nothing."""
+        times_s = np.arange(0.0, self.drive.end_s, _COARSE_S).tolist()
+        return all(abs(self.drive.state(t)[1] - again.state(t)[1]) <= _ALIKE_MPS for t in times_s)
+
+    def _when(self, history: Sequence[EgoSample]) -> float | None:
+        """Return the moment of the drive that is like now: as long at this place as the ego has been by now."""
+        time_s, s_m, speed_mps, _ = history[-1]
+        if speed_mps >= _STANDING_MPS:
+            when_s = self.drive.time_at(s_m)
+            return when_s if when_s is not None and when_s <= self.drive.end_s else None
+        place_m = s_m - 0.05
+        came_s = next((sample[0] for sample in history if sample[1] >= place_m), time_s)
+        arrived_s = self.drive.time_at(place_m)
+        if arrived_s is None or arrived_s + time_s - came_s > self.drive.end_s:
+            return None
+        return arrived_s + time_s - came_s
 
 
 def predictor_called(name: str, route: Route, signs: Signs) -> Predictor:

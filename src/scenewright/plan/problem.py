@@ -147,7 +147,7 @@ class Problem(Unknowns):
         time_s, d_time = moment.value(z), moment.slope(self.size)
         s_m, speed_mps, accel = self.now.ego(time_s)
         d_s, d_v = speed_mps * d_time, accel * d_time
-        for hero, answer in self.now.lanes.answers.items():
+        for hero, answer in self.now.answers.items():
             if time_s <= self.now.time_s or instant != self.asked.trigger(hero):
                 continue
             place_m, hero_mps, d_place, d_hero = self._state(hero, instant, z, shots)

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from scenewright.motion.laws import Law
 from scenewright.plan.asked import TIGHT, Asked
-from scenewright.plan.shooting import Leg, Moment, Shot
+from scenewright.plan.shooting import Leg, Quantity, Shot
 from scenewright.plan.situation import Situation
 from scenewright.program.starts import TAILGATES_S
 from scenewright.program.types import EGO, Actor, PieceKind
@@ -82,21 +82,13 @@ class Rows:
 
 @dataclass(slots=True)
 class HeroRows:
-    """Adds one hero's rows.
-
-    Attributes
-    ----------
-    moments
-        The times of all instants.
-    nodes
-        Which leg begins at an instant.
-    """
+    """Adds one hero's rows; `moments` are the times of all instants, `nodes` tell which leg begins at one."""
 
     asked: Asked
     now: Situation
     hero: Actor
     shot: Shot
-    moments: list[Moment]
+    moments: list[Quantity]
     nodes: Mapping[int, int]
     costs: Rows
     bounds: Rows
@@ -164,19 +156,17 @@ class HeroRows:
         onto = np.arange(len(shot.s))[free] > acts  # on its way to whatever road comes next
         # Who brakes into a bend is midway between two nodes faster than the second of them alone allows there.
         s, v, d_s, d_v = (0.5 * (each[1:] + each[:-1]) for each in (shot.s, shot.v, shot.d_s, shot.d_v))
-        most, slope = caps.at(s, caps.most)
-        bends = most < caps.most.max()
-        self.bounds.add_all((v - most)[bends], (d_v - slope[:, None] * d_s)[bends], FIRM * wanted.price)
+        bends = caps.at(s, caps.most)[0] < caps.most.max()
+        over, slopes = caps.above(caps.most, s, v, d_s, d_v)
+        self.bounds.add_all(over[bends], slopes[bends], FIRM * wanted.price)
         s, v, d_s, d_v = (each[free] for each in (shot.s, shot.v, shot.d_s, shot.d_v))
-        most, slope = caps.at(s, caps.most)
         self.bounds.add_all(-v, -d_v, FIRM * wanted.price)
         # Its last knot is on its road, unless the program asks for one at its end.
         end_m = self.asked.scene.routes[self.hero.id].landmarks["route_end"] - VEHICLE_LENGTH_M
         s_m, _, d_s_m, _ = shot.at_node(shot.first_node[-2])
         self.bounds.add(s_m - end_m, d_s_m, wanted.price / TIGHT["place"], wanted.out_of_way_most)
-        self.bounds.add_all(v - most, d_v - slope[:, None] * d_s, FIRM * wanted.price)
-        comfortable, slope = caps.at(s, caps.comfortable)
-        self.costs.beyond(v - comfortable, d_v - slope[:, None] * d_s, wanted.lateral_weight)
+        self.bounds.add_all(*caps.above(caps.most, s, v, d_s, d_v), FIRM * wanted.price)
+        self.costs.beyond(*caps.above(caps.comfortable, s, v, d_s, d_v), wanted.lateral_weight)
         natural, slope = caps.at(s, caps.on_the_way_to(shot.s[min(acts, len(shot.s) - 1)])[1])
         natural, slope = np.where(onto, limits.natural_speed_mps, natural), np.where(onto, 0.0, slope)
         self.costs.beyond(v - natural, d_v - slope[:, None] * d_s, wanted.over_limit_weight)
@@ -279,11 +269,12 @@ class HeroRows:
             # Nobody begins within a junction or beyond its turn, unless the program puts it there.
             self.bounds.add(shot.s[0] - begins_m, shot.d_s[0], wanted.out_of_way_price, wanted.out_of_way_most)
         number, first = self._trigger_leg(), 1 if hero in self.now.heroes else 0
-        if hero in self.now.lanes.apart:
+        lane = self.now.on_lane.get(hero)
+        if lane is not None:
             acts = len(shot.legs) - 1 if hero in self.asked.beside else 0 if number is None else number
             if acts:
                 self._apart(slice(first, shot.first_node[acts] + 1))
-            if hero in self.now.lanes.behind:  # nor does it run into the ego where it just drives on behind it
+            if lane.behind_all_along:  # nor does it run into the ego where it just drives on behind it
                 for later, leg in enumerate(shot.legs[acts:], acts):
                     if leg.kind is PieceKind.GO:
                         self._apart(slice(shot.first_node[later] + 1, shot.first_node[later + 1] + 1))
@@ -296,7 +287,7 @@ class HeroRows:
         s_m, v, d_s, d_v = (each[first : last + 1] for each in (shot.s, shot.v, shot.d_s, shot.d_v))
         # Who is to be ahead of the ego beyond that zone drives through it first: before an ego that gives way to it, a
         # hero that waited there would wait for ever.
-        through = zone_m is not None and place_m > zone_m and self.now.lanes.apart.get(hero, (0.0,))[0] > 0.0
+        through = zone_m is not None and place_m > zone_m and lane is not None and lane.ahead
         if zone_m is not None and not through:
             clear_s = until_s
             if (second_to := self.asked.second_to.get(hero)) is not None:  # nor is who comes later in the way till then
@@ -311,28 +302,27 @@ class HeroRows:
         slopes = d_v - slope[:, None] * d_s + (0.5 * (v - most) / lasts_s)[:, None] * d_lasts
         weights = share * (wanted.price / TIGHT["speed"])
         self.bounds.add_all(v - most, slopes, weights, share * wanted.over_sign_most)
-        if hero in self.now.waits:
+        if hero in self.now.triggers_s:
             waits = until_s - shot.time[first : last + 1] > v_there / wanted.sets_off_mpss + wanted.waits_s
             beyond_m = s_m + v**2 / (2.0 * wanted.waits_mpss) + run_up_m - place_m
             slopes = d_s + (v / wanted.waits_mpss)[:, None] * d_v + d_run_up - d_place
             self.bounds.add_all(beyond_m[waits], slopes[waits], wanted.waits_price)
-        if hero in self.now.lanes.plainly:
-            self._plainly(last)
+        if lane is not None and lane.of_distance:
+            self._plainly(last, lane.side)
 
     def _apart(self, nodes: slice) -> None:
         """Add that a hero on the ego's lane leaves room between the two."""
-        (side, offset_m), shot, wanted = self.now.lanes.apart[self.hero.id], self.shot, self.asked.wanted
+        lane, shot, wanted = self.now.on_lane[self.hero.id], self.shot, self.asked.wanted
         ego = np.array([self.now.ego(time_s)[:2] for time_s in shot.time[nodes].tolist()])
-        room_m = side * (shot.s[nodes] + offset_m - ego[:, 0]) - VEHICLE_LENGTH_M - wanted.clear_of_ego_m
-        slopes = -side * (shot.d_s[nodes] - ego[:, 1:] * shot.d_time[nodes])
-        if side < 0.0 and nodes.start == 0:  # whoever begins behind it does not tailgate
+        room_m = lane.side * (shot.s[nodes] + lane.offset_m - ego[:, 0]) - VEHICLE_LENGTH_M - wanted.clear_of_ego_m
+        slopes = -lane.side * (shot.d_s[nodes] - ego[:, 1:] * shot.d_time[nodes])
+        if not lane.ahead and nodes.start == 0:  # whoever begins behind it does not tailgate
             room_m[0] -= TAILGATES_S * shot.v[0]
             slopes[0] += TAILGATES_S * shot.d_v[0]
         self.bounds.add_all(-room_m, slopes, wanted.price / TIGHT["place"], wanted.out_of_way_most)
 
-    def _plainly(self, node: int) -> None:
+    def _plainly(self, node: int, side: float) -> None:
         """Add that the distance changes plainly at the trigger: else it is as good as met for a long while."""
-        side, _ = self.now.lanes.apart[self.hero.id]
         s_m, v, _, d_v = self.shot.at_node(node)
         ego_m, ego_mps, ego_mpss = self.now.ego(float(self.shot.time[node]))
         before_m = side * (float(self.shot.s[0]) - self.now.ego(float(self.shot.time[0]))[0])

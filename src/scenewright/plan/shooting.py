@@ -20,21 +20,21 @@ from scenewright.program.types import PieceKind
 Array = NDArray[np.float64]
 Columns = NDArray[np.intp]
 
-CREEPS_MPS = 0.1  # who is slower is taken to be so fast, to tell when it comes somewhere
+_CREEPS_MPS = 0.1  # who is slower is taken to be so fast, to tell when it comes somewhere
 _ROUNDS = 4  # of Newton's steps for that
 _HARDLY_MPS = 0.05  # by how much less than standing is a matter of rounding
 
 
 @dataclass(frozen=True, slots=True)
-class Moment:
-    """A time that is ``constant_s`` after an unknown instant, or after zero where `unknown` is None."""
+class Quantity:
+    """A time, a place or a speed: so much more than an unknown, or than zero where `unknown` is None."""
 
-    constant_s: float
+    constant: float
     unknown: int | None = None
 
     def value(self, z: Array | Sequence[float]) -> float:
-        """Return the time (s)."""
-        return self.constant_s + (0.0 if self.unknown is None else float(z[self.unknown]))
+        """Return how much it is (SI)."""
+        return self.constant + (0.0 if self.unknown is None else float(z[self.unknown]))
 
     def slope(self, size: int) -> Array:
         """Return its derivative by all of so many unknowns."""
@@ -42,6 +42,9 @@ class Moment:
         if self.unknown is not None:
             slope[self.unknown] = 1.0
         return slope
+
+
+Start = tuple[Quantity, Quantity]  # the place (m) and the speed (m/s) that a motion begins with
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,20 +56,10 @@ class Leg:
 
     piece: int
     kind: PieceKind
-    first: Moment
-    last: Moment
+    first: Quantity
+    last: Quantity
     cells: int
     accels: tuple[int, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class Start:
-    """The state that a motion begins with: numbers, or the unknowns `place` and `speed`."""
-
-    s_m: float = 0.0
-    speed_mps: float = 0.0
-    place: int | None = None
-    speed: int | None = None
 
 
 @dataclass(slots=True)
@@ -131,21 +124,21 @@ class Shot:
         )
         return np.maximum(lasts_s, 1e-6), d_lasts
 
-    def passes(self, place_m: float) -> tuple[float, float]:
-        """Return when it comes to a place, and how fast it is there; behind its end it holds its speed."""
+    def passes(self, place_m: float) -> float:
+        """Return when it comes to a place; behind its end it holds its speed."""
         last = len(self.s) - 1
         node = min(max(int(np.searchsorted(self.s, place_m, side="right")) - 1, 0), last)
         begin, v, to_go = float(self.time[node]), float(self.v[node]), place_m - float(self.s[node])
         if node == last:
-            return begin + to_go / max(v, CREEPS_MPS), max(v, CREEPS_MPS)
+            return begin + to_go / max(v, _CREEPS_MPS)
         lasts = max(float(self.time[node + 1]) - begin, 1e-6)
         a, jerk = float(self.accel[node]), float(self.accel_after[node] - self.accel[node]) / lasts
-        since, speed = max(to_go, 0.0) / max(float(self.s[node + 1] - self.s[node]), 1e-6) * lasts, v
+        since = max(to_go, 0.0) / max(float(self.s[node + 1] - self.s[node]), 1e-6) * lasts
         for _ in range(_ROUNDS):
-            speed = max(v + (a + 0.5 * jerk * since) * since, CREEPS_MPS)
+            speed = max(v + (a + 0.5 * jerk * since) * since, _CREEPS_MPS)
             since += (to_go - (v + (0.5 * a + jerk * since / 6.0) * since) * since) / speed
             since = min(max(since, 0.0), lasts)
-        return begin + since, speed
+        return begin + since
 
     def rate_at(self, time_s: float, before: bool) -> tuple[float, Array]:
         """Return the acceleration at an instant, that which begins there or that `before` it, with its derivatives."""
@@ -172,19 +165,11 @@ def shoot(legs: Sequence[Leg], start: Start, z: Array) -> Shot:
     nodes, size = first_node[-1] + 1, len(z)
     s, v, accel, after = np.zeros((4, nodes))
     d_s, d_v = np.zeros((2, nodes, size))
-    s[0] = start.s_m if start.place is None else z[start.place]
-    v[0] = start.speed_mps if start.speed is None else z[start.speed]
-    if start.place is not None:
-        d_s[0, start.place] = 1.0
-    if start.speed is not None:
-        d_v[0, start.speed] = 1.0
+    place, speed = start
+    s[0], d_s[0], v[0], d_v[0] = place.value(z), place.slope(size), speed.value(z), speed.slope(size)
     accel[cells], after[cells] = z[one], z[other]
     ends = np.array([[leg.first.value(z), leg.last.value(z)] for leg in legs])
-    d_ends = np.zeros((2, len(legs), size))
-    for number, leg in enumerate(legs):
-        for d_end, moment in zip(d_ends, (leg.first, leg.last), strict=True):
-            if moment.unknown is not None:
-                d_end[number, moment.unknown] = 1.0
+    d_ends = np.array([[leg.first.slope(size) for leg in legs], [leg.last.slope(size) for leg in legs]])
     of_leg = np.repeat(np.arange(len(legs)), counts)
     lasts, d_lasts = ((ends[:, 1] - ends[:, 0]) / counts)[of_leg], ((d_ends[1] - d_ends[0]) / counts[:, None])[of_leg]
     since = np.arange(nodes - 1) - np.repeat(first_node[:-1], counts)

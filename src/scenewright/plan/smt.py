@@ -42,10 +42,7 @@ _EVEN_FIRST = (True, False)
 class SmtPlanner:
     """Plans and re-plans the heroes of one scene over one run; `simulate.loop.HeroDriver` says what is asked of it.
 
-    Attributes
-    ----------
-    why
-        What the last first plan failed for.
+    What the last first plan failed for is `why`.
     """
 
     scene: Scene

@@ -15,10 +15,10 @@ import numpy as np
 from scenewright.motion.limits import Limits, Signs
 from scenewright.motion.profile import Profile, chain
 from scenewright.plan.asked import Asked
-from scenewright.plan.foresight import Foresight
+from scenewright.plan.foresight import Foresight, Motions
 from scenewright.plan.guesses import JOINT_S
 from scenewright.plan.prediction import EgoSample, Predictor
-from scenewright.plan.situation import Drive, Situation
+from scenewright.plan.situation import Drive, SeenAndForeseen, Situation
 from scenewright.plan.triggers import SHORTEST_LEAD_S, TriggerTimes
 from scenewright.plan.unknowns import LEAST_S
 from scenewright.program import expressions as ex
@@ -44,24 +44,10 @@ _SOONER = 1.5
 class Standing:
     """One scene over one run, as it stands.
 
-    Attributes
-    ----------
-    limits
-        Of every actor, by id.
-    predictor
-        Foresees the ego where it follows nobody.
-    conditions
-        The scene's linear conditions.
-    witness
-        How it can happen, if that is known.
-    behind
-        Foresees the ego where it follows a hero, on top of what that makes of it; None: as elsewhere.
-    signs
-        How fast the ego drives where it can; None: as its road is signed.
-    plan
-        The motion that is being carried out.
-    ego_knots_s
-        When the ego passed its knots.
+    `limits` are those of every actor, by id; `conditions` the scene's linear ones; `witness` tells how it can happen,
+    if that is known. The ego is foreseen by `predictor` where it follows nobody, by `behind` where it follows a hero,
+    on top of what that makes of it (None: as elsewhere); `signs` tell how fast it drives where it can (None: as its
+    road is signed). `plan` is being carried out; `ego_knots_s` tell when the ego passed its knots.
     """
 
     scene: Scene
@@ -116,106 +102,83 @@ class Standing:
                     self.ego_knots_s[k] = min(passed_s.get(k, now_s), now_s)
 
     # -- what a plan starts from --------------------------------------------------------------------------------------
-    def _first_situation(self, prediction: Profile, guesses: Mapping[int, Profile]) -> Situation:
-        triggers = {
-            hero.id: self._times.instant_s(hero, 0.0, prediction, None)
-            for hero in self._heroes
-            if self._times.ego_decides(hero)
-        }
-        knots = {self._asked.knot(hero, self._name(hero)): at_s for hero, at_s in triggers.items()}
-        knots |= self._ego_knots(0.0, prediction, triggers, knots)
-        self._put_in_order(knots)
-        expected: dict[int, float] = {}
-        planned: dict[int, float] = {}
+    def _now(self, time_s: float, prediction: Profile, guesses: Motions | None = None) -> Situation:
+        """Return a situation in which no moment is known yet, but the ego, and what it makes of how heroes move.
+
+        They move as in the plan in force; before the first plan so as is guessed.
+        """
+        motions, first = (self.plan.profiles, False) if guesses is None else (guesses, True)
+        answers = self._ego.answers(motions, time_s, prediction, first=first)
+        ego = SeenAndForeseen(self._ego.samples, prediction)
+        return Situation(time_s, ego, self._ego.is_sure, self._ego.on_lane, answers, guesses or {}, self._others)
+
+    def _first_situation(self, prediction: Profile, guesses: Motions) -> Situation:
+        now = self._now(0.0, prediction, guesses)
+        knots, expected, least_s = now.knots_s, now.expected_s, self._asked.least_s
         for hero in self._heroes:
-            if hero.id not in triggers and (name := self.structure.trigger_knot(hero.id)) is not None:
+            if (name := self.structure.trigger_knot(hero.id)) is not None:
                 instant = self._asked.knot(hero.id, name)
-                expected[instant] = planned[instant] = guesses[hero.id].knot_times_s.get(name, JOINT_S)
+                if hero.id in self._times.sides:
+                    now.triggers_s[hero.id] = knots[instant] = self._times.instant_s(hero, 0.0, prediction, None)
+                else:
+                    expected[instant] = now.planned_s[instant] = guesses[hero.id].knot_times_s.get(name, JOINT_S)
+        self._foresee_knots(now, prediction)
         for actor in self.scene.program.actors:
-            now, told = 0.0, guesses[actor.id].knot_times_s if actor.id in guesses else {}
+            then_s, told = 0.0, guesses[actor.id].knot_times_s if actor.id in guesses else {}
             before = self._asked.knot(actor.id, actor.sketch.knots[0])
             for name in actor.sketch.knots:
                 instant = self._asked.knot(actor.id, name)
                 if instant not in knots:
-                    soonest_s = [at_s + self._asked.least_s[known, instant] for known, at_s in knots.items()]
+                    soonest_s = [at_s + least_s[known, instant] for known, at_s in knots.items()]
                     chained = self.structure.trigger_knot(actor.id) is None and actor.id in self._asked.adapts_until
-                    lasts_s = max(self._asked.wanted.lasts_s, self._asked.least_s[before, instant])
-                    usual_s = max([now + lasts_s, *(soonest_s if chained else ())])
+                    lasts_s = max(self._asked.wanted.lasts_s, least_s[before, instant])
+                    usual_s = max([then_s + lasts_s, *(soonest_s if chained else ())])
                     expected.setdefault(instant, told.get(name, usual_s))
-                now, before = knots.get(instant, expected.get(instant, now)), instant
+                then_s, before = knots.get(instant, expected.get(instant, then_s)), instant
         for instant, at_s in self._moments_s.items():
             if instant not in knots:
                 expected.setdefault(instant, at_s)
         for (first, last, _), made in self._asked.lowering.happens.items():
             ends_s = [knots.get(end, expected.get(end, 0.0)) for end in (first, last)]
             expected.setdefault(made, 0.5 * sum(ends_s))
-        knots |= self._looks(0.0, {**expected, **knots})
-        return Situation(
-            0.0,
-            self._ego.states(prediction),
-            knots,
-            expected,
-            guesses=guesses,
-            others=self._others,
-            planned_s=planned,
-            waits=frozenset(triggers),
-            sure=self._ego.is_sure,
-            lanes=self._ego.lanes(guesses, 0.0, prediction, first=True),
-        )
+        self._look(now)
+        return now
 
     def _situation(self, time_s: float, prediction: Profile) -> tuple[Situation, float]:
         """Return what to plan from now, and by how much triggers have moved of which the ego decides (s)."""
-        knots: dict[int, float] = {}
-        expected: dict[int, float] = {}
-        planned: dict[int, float] = {}
-        drives: dict[int, Drive] = {}
-        triggers: dict[int, float] = {}
-        moved_s = 0.0
+        now, moved_s = self._now(time_s, prediction), 0.0
+        knots, expected = now.knots_s, now.expected_s
         for hero in self._heroes:
             profile, names = self.plan.profiles[hero.id], hero.sketch.knots
             piece = self._open_piece(hero, time_s)
             first = len(hero.sketch.pieces) if piece is None else piece
             begin_s = max(time_s, profile.knot_times_s.get(names[first], time_s))
-            drives[hero.id] = Drive(begin_s, first, profile)
+            now.heroes[hero.id] = Drive(begin_s, first, profile)
             for number, name in enumerate(names):
                 (knots if number <= first else expected)[self._asked.knot(hero.id, name)] = profile.knot_times_s[name]
             trigger = self.structure.trigger_knot(hero.id)
             if trigger is None or (instant := self._asked.knot(hero.id, trigger)) in knots:
                 continue
-            if not self._times.ego_decides(hero):
-                planned[instant] = self._joint_s[hero.id]
-                sooner_s = self._comes_true_s(hero, time_s, prediction, profile.knot_times_s[trigger])
-                if sooner_s is not None:
-                    expected[instant] = planned[instant] = sooner_s
-                continue
             before_s = profile.knot_times_s[trigger]
+            if hero.id not in self._times.sides:
+                now.planned_s[instant] = self._joint_s[hero.id]
+                if (sooner_s := self._comes_true_s(hero, time_s, prediction, before_s)) is not None:
+                    expected[instant] = now.planned_s[instant] = sooner_s
+                continue
             then_s = self._times.instant_s(hero, time_s, prediction, before_s)
             if len(self.scene.program.heroes) > 1:
                 most_s = max(_MOVES_S, abs(then_s - before_s) * _SOON_S / (then_s - time_s))
                 then_s = min(max(then_s, before_s - most_s), before_s + most_s)
-            triggers[hero.id] = knots[instant] = then_s
-            moved_s = max(moved_s, abs(knots[instant] - before_s))
+            now.triggers_s[hero.id] = knots[instant] = then_s
+            moved_s = max(moved_s, abs(then_s - before_s))
             for later in names[names.index(trigger) + 1 :]:  # what follows keeps its place in time after it
-                expected[self._asked.knot(hero.id, later)] += knots[instant] - before_s
-        knots |= self._ego_knots(time_s, prediction, triggers, knots)
-        self._put_in_order(knots)
+                expected[self._asked.knot(hero.id, later)] += then_s - before_s
+        self._foresee_knots(now, prediction)
         for instant, at_s in self._moments_s.items():  # places that were passed, and what happened, are history too
             if instant not in knots and instant not in expected:
                 (knots if at_s <= time_s else expected)[instant] = at_s
-        knots |= self._looks(time_s, {**expected, **knots})
-        situation = Situation(
-            time_s,
-            self._ego.states(prediction),
-            knots,
-            expected,
-            drives,
-            others=self._others,
-            planned_s=planned,
-            waits=frozenset(triggers),
-            sure=self._ego.is_sure,
-            lanes=self._ego.lanes(self.plan.profiles, time_s, prediction, first=False),
-        )
-        return situation, moved_s
+        self._look(now)
+        return now, moved_s
 
     def _comes_true_s(self, hero: Actor, time_s: float, prediction: Profile, planned_s: float) -> float | None:
         """Return when a condition on both comes true before it is planned to, if the hero goes on as it is.
@@ -230,36 +193,32 @@ class Standing:
         found = here[0].first_time({EGO: prediction, hero.id: even}, time_s + SHORTEST_LEAD_S)
         return found if found is not None and found < planned_s else None
 
-    def _looks(self, time_s: float, moments_s: Mapping[int, float]) -> dict[int, float]:
-        """Return when to look at what has to last, from now to where the last of it ends: the sooner, the more often.
+    def _look(self, now: Situation) -> None:
+        """Add when to look at what has to last, from now to where the last of it ends: the sooner, the more often.
 
         What is further off is looked at again, and an ego that is foreseen to change its speed may do so between two.
         """
-        asked, last_s = self._asked, time_s
+        asked, last_s = self._asked, now.time_s
         for _, instant in asked.stretches:
-            constant = asked.events.times[instant].constant
-            last_s = max(last_s, moments_s.get(instant, time_s) if constant is None else float(constant))
+            constant, moments_s = asked.events.times[instant].constant, now.expected_s | now.knots_s
+            last_s = max(last_s, moments_s.get(instant, last_s) if constant is None else float(constant))
         shares = np.linspace(0.0, 1.0, len(asked.looks) + 1)[1:] ** _SOONER
-        return dict(zip(asked.looks, (time_s + (last_s - time_s) * shares).tolist(), strict=True))
+        looks_s = (now.time_s + (last_s - now.time_s) * shares).tolist()
+        now.knots_s.update(zip(asked.looks, looks_s, strict=True))
 
     # -- what is known ------------------------------------------------------------------------------------------------
     @property
     def _heroes(self) -> Iterable[Actor]:
         return self.scene.program.heroes
 
-    def _name(self, hero: int) -> str:
-        return self.structure.trigger_knot(hero) or ""
+    def _foresee_knots(self, now: Situation, prediction: Profile) -> None:
+        """Add when the ego passes its knots, by instant, as far as they are not known.
 
-    def _ego_knots(
-        self, time_s: float, prediction: Profile, triggers: Mapping[int, float], known: Mapping[int, float]
-    ) -> dict[int, float]:
-        """Return when the ego passes its knots, by instant, as far as they are not known."""
-        found = self._times.ego_knots_s(time_s, prediction, self.ego_knots_s, triggers)
-        instants = {self._asked.knot(EGO, name): at_s for name, at_s in found.items()}
-        return {instant: at_s for instant, at_s in instants.items() if instant not in known}
-
-    def _put_in_order(self, knots: dict[int, float]) -> None:
-        """Put off what would come before a hero has done what is to be done before: it cannot act sooner."""
+        What would come before a hero has done what is to be done before is put off: it cannot act sooner.
+        """
+        knots = now.knots_s
+        for name, at_s in self._times.ego_knots_s(now.time_s, prediction, self.ego_knots_s, now.triggers_s).items():
+            knots.setdefault(self._asked.knot(EGO, name), at_s)
         for hero in self._heroes:
             soonest_s = 0.0
             for instant in (self._asked.knot(hero.id, name) for name in hero.sketch.knots):

@@ -33,14 +33,9 @@ _STANDS_MPS, _STANDS_THERE_M = 0.02, 0.9 * TIGHT_LENGTH_M
 class TriggerTimes:
     """Tells for one scene when triggers come.
 
-    Attributes
-    ----------
-    ego_began
-        The ego's position (m) and speed (m/s) when the run began.
-    ego_alone
-        Conditions on the ego alone at knots that it passes by itself (not those it shares with a hero's trigger).
-    told
-        The ego's knots that these tell, or that are others' moments.
+    It began at a place (m) and speed (m/s), `ego_began`. Of heroes of whose triggers the ego decides when they come,
+    `sides` has the condition on it alone that each waits for. At knots that it passes by itself, not those that it
+    shares with a trigger, it meets the conditions `ego_alone`; these, or others' moments, tell its knots `told`.
     """
 
     scene: Scene
@@ -49,24 +44,16 @@ class TriggerTimes:
     ego_began: tuple[float, float] = (0.0, 0.0)
     ego_alone: list[LinearCondition] = field(init=False)
     told: set[str] = field(init=False)
-    _sides: dict[int, LinearCondition | None] = field(init=False)  # of the ego, by hero: asked for at every tick
+    sides: dict[int, LinearCondition] = field(init=False)
 
     def __post_init__(self) -> None:
         heroes = [hero for hero in self.scene.program.heroes if hero.id in self.structure.triggers]
-        self._sides = {hero.id: self._side(hero) for hero in heroes}
+        self.sides = {hero.id: side for hero in heroes if (side := self._side(hero)) is not None}
         shared = {key for instant in self.structure.triggers.values() for key in instant}
         own = {(EGO, name) for name in self.scene.program.ego.sketch.knots[1:]} - shared
         self.ego_alone = [c for c in self.conditions if set(c.weights) == {EGO} and c.moments <= own]
         moments = shared.union(*self.structure.instants, *(c.moments for c in self.ego_alone))
         self.told = {name for owner, name in moments if owner == EGO}
-
-    def ego_decides(self, hero: Actor) -> bool:
-        """Whether the ego alone decides when a hero's trigger comes."""
-        return self.ego_side(hero) is not None
-
-    def ego_side(self, hero: Actor) -> LinearCondition | None:
-        """Return the condition on the ego alone that the hero's trigger waits for; None where both decide."""
-        return self._sides.get(hero.id)
 
     def _side(self, hero: Actor) -> LinearCondition | None:
         here = [c for c in self.conditions if c.moments <= self.structure.triggers[hero.id]]
@@ -81,16 +68,13 @@ class TriggerTimes:
         return offset_m is not None and any(offset_m - c.constant / c.weights[hero.id][0] > 0.0 for c in apart)
 
     def instant_s(self, hero: Actor, time_s: float, prediction: Profile, planned_s: float | None) -> float:
-        """Return when a hero's trigger comes of which the ego decides (it has an `ego_side`).
+        """Return when a hero's trigger comes of which the ego decides (it is in `sides`).
 
-        Parameters
-        ----------
-        planned_s
-            When it comes by the plan in force; None where nothing is planned yet.
+        By the plan in force it comes at `planned_s`; None where nothing is planned yet.
         """
-        side = self.ego_side(hero)
-        assert side is not None
-        arrival_s = self._ego_arrival_s(side, time_s, prediction)
+        side = self.sides[hero.id]
+        arrival = self._arrival_s(side, time_s, prediction)
+        arrival_s = time_s + _FAR_S if arrival is None else max(arrival, time_s + SHORTEST_LEAD_S)
         if planned_s is None:
             return arrival_s
         due_s = max(planned_s, time_s + SHORTEST_LEAD_S)
@@ -101,12 +85,11 @@ class TriggerTimes:
             return min(max(planned_s, stands[0]), stands[1])
         return min(arrival_s, max(time_s + _LATEST_S, planned_s))
 
-    def _ego_arrival_s(self, condition: LinearCondition, time_s: float, prediction: Profile) -> float:
-        """Return when the ego will be at its side: at once where it is past it, late where that is not in sight."""
-        arrival = condition.first_time({EGO: prediction}, time_s)
-        if arrival is None and self._is_behind(condition, prediction.state(time_s)):
-            arrival = time_s
-        return time_s + _FAR_S if arrival is None else max(arrival, time_s + SHORTEST_LEAD_S)
+    def _arrival_s(self, condition: LinearCondition, after_s: float, prediction: Profile) -> float | None:
+        """Return when the ego first meets a condition: at once where it is past what lay ahead when the run began."""
+        arrival = condition.first_time({EGO: prediction}, after_s)
+        began, then = (condition.value({EGO: state}) for state in (self.ego_began, prediction.state(after_s)))
+        return after_s if arrival is None and began * then < 0.0 else arrival
 
     def ego_knots_s(
         self, time_s: float, prediction: Profile, past: Mapping[str, float], triggers_s: Mapping[int, float]
@@ -122,18 +105,12 @@ class TriggerTimes:
         for name, condition in sorted(alone, key=lambda each: order(each[0])):
             if name not in knots:
                 latest = max([time_s, *(at_s for known, at_s in knots.items() if order(known) < order(name))])
-                arrival = condition.first_time({EGO: prediction}, latest)
-                if arrival is None and self._is_behind(condition, prediction.state(latest)):
-                    arrival = latest  # it is past that place before it may be: nothing can come before it any more
-                elif arrival is None and not condition.weights[EGO][0]:
+                arrival = self._arrival_s(condition, latest, prediction)
+                if arrival is None and not condition.weights[EGO][0]:
                     arrival = time_s + _LATEST_S  # how fast it will be once answers what others do until then
                 if arrival is not None:
                     knots[name] = arrival
         return knots
-
-    def _is_behind(self, condition: LinearCondition, state: tuple[float, float, float]) -> bool:
-        """Whether the ego, in `state`, is past a place that lay ahead of it when the run began."""
-        return condition.value({EGO: self.ego_began}) * condition.value({EGO: state[:2]}) < 0.0
 
 
 def adapts_until(program: Program, structure: Structure, behind_ego: Mapping[int, str]) -> dict[int, str]:

@@ -16,7 +16,7 @@ from scenewright.motion.profile import Profile
 from scenewright.plan.asked import Asked, number_of
 from scenewright.plan.pairs import AFTER_S, LOOK_S, Meeting, Way, passes_s
 from scenewright.plan.rows import CELL_S, SOONEST_S, Columns
-from scenewright.plan.shooting import CREEPS_MPS, Leg, Moment, Shot, Start, shoot
+from scenewright.plan.shooting import Leg, Quantity, Shot, Start, shoot
 from scenewright.plan.situation import Situation
 from scenewright.program.types import EGO, Actor, PieceKind
 
@@ -39,17 +39,11 @@ class _Own:
     columns: Columns
     start: Start
     legs: list[Leg]
-    moments: list[Moment]
+    moments: list[Quantity]
 
 
 class Unknowns:
-    """The unknowns of one plan.
-
-    Attributes
-    ----------
-    guess, low, high, step
-        Of each unknown: its first value, its bounds, and the longest step that a linear model of it is good for.
-    """
+    """The unknowns of one plan: of each its first value, its bounds, and the longest step for a linear model of it."""
 
     def __init__(self, asked: Asked, now: Situation, meetings: Sequence[Meeting] = ()) -> None:
         self.asked, self.now = asked, now
@@ -71,7 +65,7 @@ class Unknowns:
                 self._span[hero.id] = range(first, len(self._guess))
         self._others = self._rest()
         self._shot: tuple[Array, dict[int, Shot]] | None = None
-        self._begins = [k for start in self._starts.values() for k in (start.place, start.speed) if k is not None]
+        self._begins = [each.unknown for start in self._starts.values() for each in start if each.unknown is not None]
         self._moving = len(self._guess)  # of all unknowns that motions are by; moments between two come behind them
         self._own = {hero: self._owned(hero) for hero in self._legs}
         ends_s = [leg.last.value(self._guess) for legs in self._legs.values() for leg in legs]
@@ -99,17 +93,17 @@ class Unknowns:
         self._step.append(step)
         return len(self._guess) - 1
 
-    def _moment(self, instant: int) -> Moment:
+    def _moment(self, instant: int) -> Quantity:
         constant = self.asked.events.times[instant].constant
         if constant is not None:
-            return Moment(float(constant))
+            return Quantity(float(constant))
         if instant in self.now.knots_s:
-            return Moment(self.now.knots_s[instant])
+            return Quantity(self.now.knots_s[instant])
         guess = self.now.expected_s.get(instant, self.now.time_s + 5.0)
         soonest = [self.now.time_s + SOONEST_S if self.now.heroes else 0.0, float(self.asked.least_s[:, instant].max())]
         if any(self.asked.trigger(hero.id) == instant for hero in self.asked.scene.program.heroes):
             soonest.append(self.asked.wanted.settled_s)  # what was before the run is not seen
-        return Moment(0.0, self._new(guess, max(soonest), _LATEST_S, _STEP_S))
+        return Quantity(0.0, self._new(guess, max(soonest), _LATEST_S, _STEP_S))
 
     def _owned(self, hero: int) -> _Own:
         """Return what a hero's motion and rows depend on: all but what is other heroes' alone."""
@@ -126,27 +120,17 @@ class Unknowns:
             if moment.unknown is not None and not owners.get(instant, {EGO}) & {EGO, hero}
         }
         columns = [unknown for unknown in range(len(self._guess)) if unknown not in foreign]
-        number = {unknown: k for k, unknown in enumerate(columns)}
+        number: dict[int | None, int] = {unknown: k for k, unknown in enumerate(columns)}
 
-        def own(unknown: int | None) -> int | None:
-            return None if unknown is None else number.get(unknown)
-
-        def moved(moment: Moment) -> Moment:
-            return moment if moment.unknown is None else Moment(moment.constant_s, own(moment.unknown))
+        def own(each: Quantity) -> Quantity:
+            return Quantity(each.constant, number.get(each.unknown))
 
         legs = [
-            Leg(
-                each.piece,
-                each.kind,
-                moved(each.first),
-                moved(each.last),
-                each.cells,
-                tuple(number[a] for a in each.accels),
-            )
-            for each in self._legs[hero]
+            replace(leg, first=own(leg.first), last=own(leg.last), accels=tuple(number[a] for a in leg.accels))
+            for leg in self._legs[hero]
         ]
-        start = replace(self._starts[hero], place=own(self._starts[hero].place), speed=own(self._starts[hero].speed))
-        return _Own(np.array(columns, dtype=np.intp), start, legs, [moved(moment) for moment in self.moments])
+        place, speed = map(own, self._starts[hero])
+        return _Own(np.array(columns, dtype=np.intp), (place, speed), legs, [own(moment) for moment in self.moments])
 
     def _rest(self) -> dict[int, int]:
         """Make an unknown of every one that is neither a time nor a state nor a rate; return which is which."""
@@ -184,7 +168,7 @@ class Unknowns:
         instants = [asked.knot(hero.id, name) for name in hero.sketch.knots]
         knots = [self.moments[instant] for instant in instants]
         drive = self.now.heroes.get(hero.id)
-        piece, begin = (0, knots[0]) if drive is None else (drive.piece, Moment(drive.begin_s))
+        piece, begin = (0, knots[0]) if drive is None else (drive.piece, Quantity(drive.begin_s))
         self._starts[hero.id] = self._start(hero)
         nodes, legs = self._nodes.setdefault(hero.id, {}), self._legs.setdefault(hero.id, [])
         for number in range(piece, len(pieces)):
@@ -195,18 +179,19 @@ class Unknowns:
             nodes[instants[-1]] = len(legs)
         last = knots[-1] if piece < len(pieces) else begin
         after = PieceKind.STOP if hero.id in asked.stand else PieceKind.GO
-        self._add_leg(hero, len(pieces) - 1, after, last, Moment(last.constant_s + AFTER_LAST_S, last.unknown))
+        self._add_leg(hero, len(pieces) - 1, after, last, Quantity(last.constant + AFTER_LAST_S, last.unknown))
 
     def _start(self, hero: Actor) -> Start:
         drive = self.now.heroes.get(hero.id)
         if drive is not None:
-            return Start(*drive.motion.state(drive.begin_s)[:2])
+            place_m, speed_mps, _ = drive.motion.state(drive.begin_s)
+            return Quantity(place_m), Quantity(speed_mps)
         place_m, speed_mps, _ = self.now.guesses[hero.id].state(0.0)
         end_m = self.asked.scene.routes[hero.id].landmarks["route_end"]
         place = self._new(place_m, 0.0, end_m, _STEP_M)
-        return Start(place=place, speed=self._new(speed_mps, 0.0, _FASTEST_MPS, _STEP_MPS))
+        return Quantity(0.0, place), Quantity(0.0, self._new(speed_mps, 0.0, _FASTEST_MPS, _STEP_MPS))
 
-    def _add_piece(self, hero: Actor, number: int, first: Moment, last: Moment) -> None:
+    def _add_piece(self, hero: Actor, number: int, first: Quantity, last: Quantity) -> None:
         """Add the legs of one piece: two where it is to be settled at its end."""
         kind, settled_s = hero.sketch.pieces[number], self.asked.wanted.settled_s
         at_trigger = self.asked.knot(hero.id, hero.sketch.knots[number + 1]) == self.asked.trigger(hero.id)
@@ -214,14 +199,14 @@ class Unknowns:
         if kind is not PieceKind.GO or not at_trigger or lasts_s <= settled_s + _LEAST_APPROACH_S:
             self._add_leg(hero, number, kind, first, last)
             return
-        between = Moment(last.constant_s - settled_s, last.unknown)
+        between = Quantity(last.constant - settled_s, last.unknown)
         if last.unknown is not None and first.unknown is None:
-            self._low[last.unknown] = max(self._low[last.unknown], first.constant_s + settled_s + LEAST_S)
+            self._low[last.unknown] = max(self._low[last.unknown], first.constant + settled_s + LEAST_S)
         self._add_leg(hero, number, kind, first, between)
         self._add_leg(hero, number, kind, between, last, joined=True)
 
     def _add_leg(
-        self, hero: Actor, piece: int, kind: PieceKind, first: Moment, last: Moment, *, joined: bool = False
+        self, hero: Actor, piece: int, kind: PieceKind, first: Quantity, last: Quantity, *, joined: bool = False
     ) -> None:
         legs = self._legs[hero.id]
         if kind is PieceKind.STOP:
@@ -245,11 +230,12 @@ class Unknowns:
             accels.append(self._new(guess, low, high, _STEP_MPSS))
         legs.append(Leg(piece, kind, first, last, cells, tuple(accels)))
 
-    def _as_planned(self, hero: Actor, piece: int, first: Moment, last: Moment) -> tuple[Profile, float, float] | None:
+    def _as_planned(
+        self, hero: Actor, piece: int, first: Quantity, last: Quantity
+    ) -> tuple[Profile, float, float] | None:
         """Return the motion in force, and when it does what a leg is to do: guesses keep to their places in pieces."""
-        drive = self.now.heroes.get(hero.id)
-        profile = self.now.guesses.get(hero.id) if drive is None else drive.motion
-        if profile is None or len(profile.knot_times_s) < 2:
+        drive, profile = self.now.heroes.get(hero.id), self._motion(hero.id)
+        if len(profile.knot_times_s) < 2:
             return None
         begin_s = 0.0 if drive is None else drive.begin_s
         old = [max(begin_s, profile.knot_times_s[name]) for name in hero.sketch.knots]
@@ -289,11 +275,11 @@ class Unknowns:
             soonest, latest = -np.inf, np.inf
             for moment in moments:
                 if moment.unknown is not None:
-                    z[moment.unknown] = max(z[moment.unknown], soonest + LEAST_S - moment.constant_s)
+                    z[moment.unknown] = max(z[moment.unknown], soonest + LEAST_S - moment.constant)
                 soonest = max(soonest, moment.value(z))
             for moment in reversed(moments):  # those that are known come when they do
                 if moment.unknown is not None:
-                    z[moment.unknown] = min(z[moment.unknown], latest - LEAST_S - moment.constant_s)
+                    z[moment.unknown] = min(z[moment.unknown], latest - LEAST_S - moment.constant)
                 latest = min(latest, moment.value(z))
         for meeting, between in self._meetings:
             if between is not None:
@@ -301,27 +287,20 @@ class Unknowns:
         return z
 
     def _between_s(self, meeting: Meeting, z: Array) -> float:
-        """Return a moment midway between the first's leaving a stretch and the second's entering it.
-
-        Where that comes too late, the moment at which both miss as little as can be.
-        """
+        """Return a moment midway between the first's leaving a stretch and the second's entering it."""
         assert meeting.zones_m is not None
         clear_m = self.asked.wanted.clear_m
-        left_s, left_mps = self._passes(meeting.first, meeting.zones_m[0][1] + clear_m, z)
-        enters_s, enters_mps = self._passes(meeting.second, meeting.zones_m[1][0] - clear_m, z)
-        left_s = min(left_s, float(self._looks[-1]))
-        enters_s = min(enters_s, left_s + _BETWEEN_S)
-        share = left_mps**2 / (left_mps**2 + enters_mps**2) if left_s > enters_s else 0.5
-        return share * left_s + (1.0 - share) * enters_s
+        left_s = min(self._passes(meeting.first, meeting.zones_m[0][1] + clear_m, z), float(self._looks[-1]))
+        enters_s = self._passes(meeting.second, meeting.zones_m[1][0] - clear_m, z)
+        return 0.5 * (left_s + min(enters_s, left_s + _BETWEEN_S))
 
-    def _passes(self, hero: int, place_m: float, z: Array) -> tuple[float, float]:
-        """Return when a hero comes to a place, and how fast it is there."""
+    def _passes(self, hero: int, place_m: float, z: Array) -> float:
+        """Return when a hero comes to a place."""
         shot, drive = self.shots(z).get(hero), self.now.heroes.get(hero)
         if shot is not None and (drive is None or place_m >= shot.s[0]):
             return shot.passes(place_m)
         assert drive is not None
-        at_s = min(passes_s(drive.motion, place_m), _LATEST_S)
-        return at_s, max(drive.motion.state(at_s)[1], CREEPS_MPS)
+        return min(passes_s(drive.motion, place_m), _LATEST_S)
 
     def shots(self, z: Array) -> dict[int, Shot]:
         """Return the motions of all that are still planned; slopes are by their own unknowns."""

@@ -17,9 +17,8 @@ from scenewright.errors import PolicyError
 from scenewright.motion.limits import Limits, Signs
 from scenewright.motion.profile import Profile
 from scenewright.plan.planner import GOOD, Attempt, Planner
-from scenewright.plan.prediction import ConstantSpeed, Predictor
+from scenewright.plan.prediction import ConstantSpeed, Predictor, Rehearsed
 from scenewright.plan.preferences import Preferences
-from scenewright.plan.rehearsal import Rehearsed
 from scenewright.program.expressions import Compare, Derived, DerivedKind, Knot, Number, State
 from scenewright.program.starts import AT_ONCE_S, HARD_MPSS, TAILGATES_S, says_how_near
 from scenewright.program.structure import read_structure
@@ -57,59 +56,45 @@ def first_plan(
     """Choose the ego's first state and plan from it; where several states may be chosen, the first that plans well.
 
     Where none does, parameters that were left open are unknowns of a plan, and take the values that it comes to.
-    None where the ego cannot start slower than it must.
-
-    Parameters
-    ----------
-    drive
-        How the ego drove in the last take; None in the first.
-    pace
-        The share of their speed at which heroes come to their triggers.
-    anew
-        Whether these values have missed, though a plan promised that they would do.
+    None where the ego cannot start slower than it must. In the last take, if there was one, it drove as in `drive`, and
+    with `anew` values missed of which a plan promised that they would do. Heroes come to their triggers at a share
+    `pace` of their speed.
     """
+
+    def best_plan(scene: Scene | None = None) -> _Planned | None:
+        """Return the first plan that does all, else the best one, for the scene planned in the world or another."""
+        steps, best = 0, None
+        for start in first_states(world):
+            # An ego that does not hold its speed may still let come about what no plan promises.
+            if start.last_resort and best is not None and best.is_good and not world.ego_bounds.holds_speed:
+                break
+            if start.speed_mps >= slower_than_mps or (steps > _MOST_STEPS and not start.last_resort):
+                continue
+            found = _plan_from(world, start, scene or world.planned, plan)
+            steps += found.attempt.steps
+            if best is None or found.rank < best.rank:
+                best = found
+            if found.promises:
+                break
+        return best
+
     limits = {actor: own if actor == EGO else own.at_pace(pace) for actor, own in world.limits.items()}
     plan = partial(_Planned, world, limits, drive)
-    best, chosen = _best_plan(world, plan, slower_than_mps), world.scene.parameters
-    left_open = replace(world.planned, parameters=world.given)
-    if best is None or (best.promises and not anew) or not left_open.open_parameters():
-        return None if best is None else best.begun
-    try:
-        world.choose(everyday(left_open).parameters)
-        free = _best_plan(world, plan, slower_than_mps, left_open) or best
-        for digits in _DIGITS:
-            world.choose(rounded(left_open, free.attempt.plan.parameters, digits).parameters)
-            again = _best_plan(world, plan, slower_than_mps)
-            if again is not None and (again.rank < best.rank or (anew and again.promises)):
-                best, chosen = again, world.scene.parameters
-            if again is best and best.promises:
-                break
-    finally:
-        world.choose(chosen)
-    return best.begun
-
-
-def _best_plan(
-    world: World,
-    plan: Callable[[Scene, EgoFirstState], _Planned],
-    slower_than_mps: float,
-    scene: Scene | None = None,
-) -> _Planned | None:
-    """Return the first plan that does all, else the best one, for what is planned in the world, or another scene."""
-    steps, best, scene = 0, None, scene or world.planned
-    for start in first_states(world):
-        # An ego that does not hold its speed may still let come about what no plan promises.
-        if start.last_resort and best is not None and best.is_good and not world.ego_bounds.holds_speed:
-            break
-        if start.speed_mps >= slower_than_mps or (steps > _MOST_STEPS and not start.last_resort):
-            continue
-        found = _plan_from(world, start, scene, plan)
-        steps += found.attempt.steps
-        if best is None or found.rank < best.rank:
-            best = found
-        if found.promises:
-            break
-    return best
+    best, chosen, left_open = best_plan(), world.scene.parameters, replace(world.planned, parameters=world.given)
+    if best is not None and left_open.open_parameters() and (anew or not best.promises):
+        try:
+            world.choose(everyday(left_open).parameters)
+            free = best_plan(left_open) or best
+            for digits in _DIGITS:
+                world.choose(rounded(left_open, free.attempt.plan.parameters, digits).parameters)
+                again = best_plan()
+                if again is not None and (again.rank < best.rank or (anew and again.promises)):
+                    best, chosen = again, world.scene.parameters
+                if again is best and best.promises:
+                    break
+        finally:
+            world.choose(chosen)
+    return None if best is None else (best.planner, best.start, best.attempt)
 
 
 class _Planned:
@@ -133,11 +118,6 @@ class _Planned:
         # Of an ego that holds its speed the start decides what it does at any moment.
         broken = not_held(scene, motions, compared_dimension, lambda dimension: float(TIGHT[dimension or "time"]))
         self.breaks = world.ego_bounds.holds_speed and not scene.open_parameters() and any(True for _ in broken)
-
-    @property
-    def begun(self) -> tuple[Planner, EgoFirstState, Attempt]:
-        """The planner that goes on from here, the ego's first state, and what the first plan came to."""
-        return self.planner, self.start, self.attempt
 
     @property
     def is_good(self) -> bool:

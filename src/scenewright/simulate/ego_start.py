@@ -58,29 +58,16 @@ def _within(value: float, bounds: tuple[float, float]) -> float:
 
 
 class _Way:
-    """What the program says of the ego's way.
+    """What the program says of the ego's way: where it begins and how fast, None where that is free.
 
-    Attributes
-    ----------
-    begins, speed_mps
-        Where it begins and how fast; None where that is free.
-    later
-        Where it is to come to, first things first.
-    lead_s
-        How long before the first of these it begins; `is_told` where the program says so.
-    middle_m
-        Where it is to be after so long if nothing is told.
-
-    Parameters
-    ----------
-    lead_s
-        How long before its place it begins if nothing tells.
+    And where it is to come to, first things first, or where it is to be if nothing is told (`middle_m`). It begins
+    `lead_s` before the first of these: as given, but for what the program says; `is_told` where it says just how long.
     """
 
     def __init__(self, scene: Scene, conditions: tuple[LinearCondition, ...], lead_s: float) -> None:
         sketch, landmarks = scene.program.ego.sketch, scene.landmarks_m[EGO]
-        first, alone = (EGO, sketch.knots[0]), [c for c in conditions if set(c.weights) == {EGO}]
-        placed = [c for c in alone if c.weights[EGO][0]]
+        first = EGO, sketch.knots[0]
+        placed = [c for c in conditions if set(c.weights) == {EGO} and c.weights[EGO][0]]
 
         def order(condition: LinearCondition) -> int:
             own = (sketch.knot_index(name) for who, name in condition.moments if who == EGO)
@@ -185,12 +172,8 @@ def ego_starts(
 
     Where the policy leaves its speed to the orchestrator (``constant``), natural speeds first. Else what the policy
     holds by itself, then slower states by choice, from which it will speed up. At last the first that is nearer in time
-    to a place than it is to be later: it may slow down.
-
-    Parameters
-    ----------
-    lead_s
-        How long before its first place it begins, where the program does not say (see `usual_lead_s`).
+    to a place than it is to be later: it may slow down. It begins `lead_s` before its first place, where the program
+    does not say (see `usual_lead_s`).
     """
     way, past = _Way(scene, conditions, lead_s), list[EgoFirstState]()
     for start in (way.on_time(ego, start) for start in _possible_starts(ego, limits, way)):

@@ -13,8 +13,7 @@ from scenewright.drive.guarded import GuardedPolicy
 from scenewright.drive.loading import load_policy
 from scenewright.motion.limits import Limits, Signs, limits_on
 from scenewright.plan.alternatives import planned_for
-from scenewright.plan.prediction import ConstantSpeed, Predictor, predictor_called
-from scenewright.plan.rehearsal import Rehearsed
+from scenewright.plan.prediction import ConstantSpeed, Predictor, Rehearsed, predictor_called
 from scenewright.program.structure import Structure, read_structure
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
@@ -35,16 +34,9 @@ class World:
     Policy (with its options), predictor, solver (of what refutes) and simulator are given by name; the seed is that of
     the policy. A simulator that drives the ego itself keeps no promise of the policy's.
 
-    Attributes
-    ----------
-    planned
-        The scene as heroes are planned in it: what lasts is decided.
-    witness
-        How it can happen, if a check has found that.
-    given
-        The parameters to which somebody gave a value: those of all others may be chosen, and chosen again.
-    alone
-        How the ego drives alone from first states that it was driven from; None where it drives otherwise each time.
+    `planned` is the scene as heroes are planned in it: what lasts is decided. `witness` is how it can happen, if a
+    check has found that. Parameters that are not `given` may be chosen, and chosen again. `alone` is how the ego drives
+    alone from first states that it was driven from; None where it drives otherwise each time.
 
     Raises
     ------
