@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import chain, repeat
 from typing import NamedTuple
 
 import numpy as np
@@ -64,7 +65,8 @@ class Rows:
     @cached_property
     def most(self) -> Array:
         """From where on the cost of each row grows evenly."""
-        return np.concatenate([np.zeros(0), *(np.full(len(block.values), block.most) for block in self.blocks)])
+        each = (b.most if isinstance(b.most, np.ndarray) else repeat(b.most, len(b.values)) for b in self.blocks)
+        return np.fromiter(chain.from_iterable(each), dtype=np.float64)
 
     def add(self, value: float, slope: Array, weight: float = 1.0, most: float = _ANY) -> None:
         """Add one row."""
