@@ -377,3 +377,16 @@ def test_an_ego_that_holds_its_speed_starts_as_fast_as_it_is_to_be_at_any_moment
     assert found is not None
     assert found[2].is_good
     assert low_mps <= found[1].speed_mps <= high_mps
+
+
+@pytest.mark.parametrize(("beyond_m", "before_m"), [(3, 30), (12, 45), (25, 60)])
+def test_nobody_begins_within_a_junction(beyond_m: int, before_m: int) -> None:
+    """Without that the nearest plans begin 4 to 17 m inside."""
+    asked = f"A0x(t0) == intersection - {before_m + 20}\nA0(t1) == A1(t1)\nA0x(t1) == intersection - 20\n"
+    asked += f"A1x(t1) == junction_end + {beyond_m}\nA1v(t2) == 0\n"
+    world, _, _ = begin(Request(program("E", "t0, go, t1, dec, t2", asked), ego="constant"), Stages(None))
+    planned = first_plan(world)
+    assert planned is not None
+    begins_m, marks = planned[0].plan.profiles[1].state(0.0)[0], world.scene.landmarks_m[1]
+    assert planned[2].is_good
+    assert not marks["junction_start"] + 0.5 < begins_m < marks["junction_end"]
