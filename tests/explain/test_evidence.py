@@ -32,7 +32,7 @@ from stories import HERO, STORIES
 @cache
 def driven(story: str, ego: str, **settings: str) -> tuple[World, Run, Verdict]:
     """Return a run, made once for all tests that look at it: whoever changes it changes a copy."""
-    request = Request(STORIES.get(story, story), ego=ego, takes=1, replan_hz=2.0, **settings)  # type: ignore[arg-type]
+    request = Request(STORIES.get(story, story), ego=ego, takes=1, replan_hz=2.0, **settings)
     result = orchestrate(request)
     assert result.run is not None
     assert result.verdict is not None

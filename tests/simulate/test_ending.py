@@ -155,3 +155,13 @@ def test_a_run_does_not_wait_for_a_moment_of_both_once_the_hero_has_acted() -> N
     assert result.run is not None
     assert result.status == "success"
     assert result.run.trace.duration_s < result.run.last_plan.profiles[1].knot_times_s["t2"] + 15.0
+
+
+def test_a_run_waits_for_the_ego_where_a_later_moment_of_both_is_at_its_own_place() -> None:
+    """The hero just drives on then, and nobody can see when; an ego that stops and goes is late."""
+    asked = "A0(t1) == A1(t1)\nA0x(t1) == intersection - 91\ngap(A0, A1, t1) == 16\nA1v(t2) == 3\n"
+    asked += "A0(t2) == A1(t3)\nA0x(t2) == intersection + 72\nA0v(t2) >= 2\n"
+    result = ends(program("W", "t0, go, t1, dec, t2, go, t3", asked), "stop-and-go")
+    assert result.run is not None
+    at_m = result.scene.landmarks_m[0]["intersection"] + 72.0
+    assert result.run.trace.actors["ego"].s_m[-1] >= at_m - 0.1

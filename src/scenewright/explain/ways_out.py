@@ -22,7 +22,8 @@ from scenewright.roads.grounding import Scene
 from scenewright.solve.suggestions import Lever, levers
 
 # No more runs than this, of no more simulated seconds than this in all, nor in each: who waits for an answer waits for
-# them, too, and one that waits for a minute is no reason to try none of the others.
+# them, too, and one that waits for a minute is no reason to try none of the others. Measured (docs/evaluation.md): 11
+# of 20 runs that missed have a number that would do within 60 s, 15 within 120, 17 within 150.
 _TRIES, _ALL_S, _EACH_S = 6, 120.0, 50.0
 _ENOUGH = 1  # who waits is helped by one
 _SAME = 1e-6  # a number that was written and one that is required of it

@@ -102,7 +102,8 @@ class Asked:
         self.narrowings = tuple(self.lowering.narrowings)
         self.times = [number_of(time) for time in self.events.times]
         self._scale = np.array([*(TIGHT[unknown.kind] for unknown in self.events.unknowns), 0.0])
-        read = [self._read(atom) for atom in self._formulas.atoms]
+        instants = {number: instant for instant, number in enumerate(self.times) if number is not None}
+        read = [self._read(atom, instants) for atom in self._formulas.atoms]
         self._orders, self._spares = [each[0] for each in read], [each[1] for each in read]
         self._given = np.array([each[2] for each in read], dtype=bool)
         self._quotients = list(self._quotients_of(self._formulas.atoms))
@@ -217,7 +218,7 @@ class Asked:
                 short_mps = self.wanted.moves_mps - float(point[speed])
                 yield Row(short_mps / TIGHT["speed"], -slopes[speed] / TIGHT["speed"], equal=False, order=False)
 
-    def _read(self, atom: Atom) -> tuple[bool, float, bool]:
+    def _read(self, atom: Atom, instants: Mapping[int, int]) -> tuple[bool, float, bool]:
         """Return whether a comparison is of times, the ego's among them, how much is to spare, and whether it is given.
 
         A moment that is "2 s later" by what it is defined as is not one that is to be earlier or later. That a look is
@@ -225,7 +226,6 @@ class Asked:
         by ending it sooner.
         """
         keys, states, looks = [key for key in atom.left.terms if key], self.events.states, set(self.looks)
-        instants = {number: instant for instant, number in enumerate(self.times) if number is not None}
         found = {instants.get(key[0]) if len(key) == 1 else None for key in keys}
         given = None not in found and (not found.isdisjoint(looks) or any(found == set(e) for e in self.stretches))
         if found & {None, *self.events.defined, *looks}:

@@ -47,8 +47,8 @@ _STANDS_S, _SETS_OFF_MPSS, _SETS_OFF_TO_MPS, _STANDS_MPS = 1.5, 1.2, 5.0, 0.05
 # A drive is looked at so often (s) for the first seconds, then that often: enough for what is planned again by then.
 _FINE_S, _FINE_STEP_S, _COARSE_S = 4.0, 0.1, 0.4
 _FINELY_S = np.arange(0.0, _FINE_S, _FINE_STEP_S)
-_STANDING_MPS = 0.3
-_ALIKE_MPS = 1.0  # who is faster or slower by more than that drives otherwise
+_STANDING_MPS = 0.3  # who is slower stands; chosen
+_ALIKE_MPS = 1.0  # who is faster or slower by more than that drives otherwise; chosen
 _OTHERWISE_S = 2.0  # after which one that is a little faster or slower than it was there drives as it did; chosen
 
 

@@ -60,26 +60,8 @@ def first_plan(
     with `anew` values missed of which a plan promised that they would do. Heroes come to their triggers at a share
     `pace` of their speed.
     """
-
-    def best_plan(scene: Scene | None = None) -> _Planned | None:
-        """Return the first plan that does all, else the best one, for the scene planned in the world or another."""
-        steps, best = 0, None
-        for start in first_states(world):
-            # An ego that does not hold its speed may still let come about what no plan promises.
-            if start.last_resort and best is not None and best.is_good and not world.ego_bounds.holds_speed:
-                break
-            if start.speed_mps >= slower_than_mps or (steps > _MOST_STEPS and not start.last_resort):
-                continue
-            found = _plan_from(world, start, scene or world.planned, plan)
-            steps += found.attempt.steps
-            if best is None or found.rank < best.rank:
-                best = found
-            if found.promises:
-                break
-        return best
-
     limits = {actor: own if actor == EGO else own.at_pace(pace) for actor, own in world.limits.items()}
-    plan = partial(_Planned, world, limits, drive)
+    best_plan = partial(_best_plan, world, partial(_Planned, world, limits, drive), slower_than_mps)
     best, chosen, left_open = best_plan(), world.scene.parameters, replace(world.planned, parameters=world.given)
     if best is not None and left_open.open_parameters() and (anew or not best.promises):
         try:
@@ -95,6 +77,29 @@ def first_plan(
         finally:
             world.choose(chosen)
     return None if best is None else (best.planner, best.start, best.attempt)
+
+
+def _best_plan(
+    world: World,
+    plan: Callable[[Scene, EgoFirstState], _Planned],
+    slower_than_mps: float,
+    scene: Scene | None = None,
+) -> _Planned | None:
+    """Return the first plan that does all, else the best one, for the scene planned in the world or another."""
+    steps, best = 0, None
+    for start in first_states(world):
+        # An ego that does not hold its speed may still let come about what no plan promises.
+        if start.last_resort and best is not None and best.is_good and not world.ego_bounds.holds_speed:
+            break
+        if start.speed_mps >= slower_than_mps or (steps > _MOST_STEPS and not start.last_resort):
+            continue
+        found = _plan_from(world, start, scene or world.planned, plan)
+        steps += found.attempt.steps
+        if best is None or found.rank < best.rank:
+            best = found
+        if found.promises:
+            break
+    return best
 
 
 class _Planned:

@@ -107,17 +107,18 @@ def _told_times(program: Program) -> list[ex.Term]:
 def _awaited_of(scene: Scene) -> dict[str, LinearCondition]:
     """Return what tells when the ego is at its own moments: a place, or the edge of a bound on it; else an equality.
 
-    What is one moment with a hero's comes when that one acts.
+    A trigger that both decide has come when the hero acts.
     """
     found, structure = dict[str, LinearCondition](), read_structure(scene.program)
     told = linear_conditions(scene, structure, with_bounds=True)
-    shared = {key for instant in structure.instants if {who for who, _ in instant} != {EGO} for key in instant}
     of_ego = [condition for condition in told if EGO in condition.weights]
+    of_both = {key for condition in of_ego if len(condition.weights) > 1 for key in condition.moments}
+    acted = of_both & {key for instant in structure.triggers.values() for key in instant}
     for condition in sorted(of_ego, key=lambda each: not each.weights[EGO][0]):  # those on its place first
         (owner, name), *others = condition.moments
         formula = scene.program.constraint(condition.constraint_id).formula
         is_equality = isinstance(formula, ex.Compare) and formula.operator == "=="
-        if owner == EGO and not others and (EGO, name) not in shared and (is_equality or condition.weights[EGO][0]):
+        if owner == EGO and not others and (EGO, name) not in acted and (is_equality or condition.weights[EGO][0]):
             found.setdefault(name, condition)
     return found
 

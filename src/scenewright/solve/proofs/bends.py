@@ -22,11 +22,12 @@ from scenewright.units import pin
 
 Array = NDArray[np.float64]
 # How many places and speeds somebody may begin from are looked at, of which every so many-th has a plane, and how far
-# apart the places of a drive are (m).
+# apart the places of a drive are (m); chosen: a plane is below the least time whatever they are.
 _STARTS, _EVERY, _STEP_M = 241, 40, 0.25
 # Rounding of curves, of places and speeds in them, and of times (s).
 _SURELY, _ROUNDED_S = 0.999, 1e-3
-SHARES = (0.985, 0.8, 0.6, 0.4, 0.2)  # of how sharp a bend is where it is sharpest: each has its part of the bend
+# Of how sharp a bend is where it is sharpest: each has its part of the bend; chosen.
+SHARES = (0.985, 0.8, 0.6, 0.4, 0.2)
 
 
 def in_bend(events: Events, actor: int, peak: int, *, planned: bool) -> Iterator[Named]:

@@ -27,7 +27,8 @@ __all__ = ["Decision", "Question", "decide", "shown"]
 
 Array = NDArray[np.float64]
 _ROUNDS = 14  # how often one motion is mended before another is looked for
-_TRIES = (4, 0.15), (12, 0.4), (1000, 0.1)  # how many first guesses are tried, and how long (s) a proof is looked for
+# How many first guesses are tried, and how long (s) a proof is looked for, in turn; chosen.
+_TRIES = (4, 0.15), (12, 0.4), (1000, 0.1)
 # How much a search does in what is called a second here. No clock is asked: answers are the same on any machine.
 _WORK_PER_S = 4_000_000
 _RANGES = {
