@@ -195,3 +195,11 @@ def test_behind_may_be_said_without_whom_and_twice(said: str, far: str, told: st
 def test_how_fast_somebody_is_may_be_said_in_front_of_behind_whom(start: str, told: set[str]) -> None:
     found = understand(f"{start} When the ego is 50 m before the intersection, the hero brakes.").program.constraints
     assert told <= {print_expression(each.formula) for each in found}
+
+
+@pytest.mark.parametrize("at_once", ["straight away", "right away"])
+def test_at_once_is_no_way(at_once: str) -> None:
+    text = "The ego drives west. An oncoming car{}. When the ego is 30 m before the intersection, the car brakes {}."
+    found, plain = (understand(text.format(" turns left", how)).program for how in (at_once, "immediately"))
+    assert [each.formula for each in found.constraints] == [each.formula for each in plain.constraints]
+    assert found.actors == plain.actors
