@@ -79,22 +79,8 @@ def orchestrate(
         if request.out is not None and result.feasibility is not None and result.feasibility.witness is not None:
             _write_witness(request.out, request, result, world, result.feasibility.witness, stages)
         return result
-    from scenewright.simulate.beginning import first_plan, first_plan_of_smt  # `check` has no use for planners
-
-    with stages("plan"):
-        planned = first_plan_of_smt(world) if request.planner == "smt" else first_plan(world)
-        assert planned is not None
-    if isinstance(planned, str):
-        result.status, result.no_plan = "gave up", planned
-        return result
-    result.attempt, result.scene = planned[2], world.scene
-    result.not_held = tuple(
-        not_held(
-            world.scene, result.attempt.plan.profiles, dimension_of, LOOSE.of, ego_promised=world.ego_bounds.holds_speed
-        )
-    )
-    if result.not_held or until == "plan":
-        result.status = "gave up" if result.not_held else "success"
+    planned = _plan(request, result, world, stages)
+    if planned is None or until == "plan":
         return result
     try:
         with SIMULATORS.closing(world.simulator):
@@ -124,6 +110,28 @@ def begin(request: Request, stages: Stages) -> tuple[World, Result, str]:
         feasibility = world.choose_and_check(explain=request.explain != "nothing")
     result = Result("infeasible", world.scene, understanding, feasibility, timings_s=stages.seconds)
     return world, result, feasibility.answer
+
+
+def _plan(
+    request: Request, result: Result, world: World, stages: Stages
+) -> tuple[HeroDriver, EgoFirstState, Attempt] | None:
+    """Return who drives the heroes, from which start and first plan on; None where that gives something up."""
+    from scenewright.simulate.beginning import first_plan, first_plan_of_smt  # `check` has no use for planners
+
+    result.status = "gave up"
+    with stages("plan"):
+        planned = first_plan_of_smt(world) if request.planner == "smt" else first_plan(world)
+        assert planned is not None
+    if isinstance(planned, str):
+        result.no_plan = planned
+        return None
+    result.attempt, result.scene = planned[2], world.scene
+    motions, holds_speed = result.attempt.plan.profiles, world.ego_bounds.holds_speed
+    result.not_held = tuple(not_held(world.scene, motions, dimension_of, LOOSE.of, ego_promised=holds_speed))
+    if result.not_held:
+        return None
+    result.status = "success"
+    return planned
 
 
 def _write_witness(
