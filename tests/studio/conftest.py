@@ -228,12 +228,12 @@ def write_replans(folder: Path) -> None:
     reasons = ["after its trigger the hero does not adapt" if status == "frozen" else "" for status in statuses]
     statuses[31], reasons[31] = "relaxed", "the ego slows down"
     statuses[32], reasons[32] = "unknown", "time limit of 50 ms"
-    wall = np.where([status == "frozen" for status in statuses], 0.0, 0.004) * random.uniform(0.7, 1.6, len(times))
+    wall = np.where([status == "frozen" for status in statuses], 0.00003, 0.004) * random.uniform(0.7, 1.6, len(times))
     wall[32] = 0.05
     table = {
         "time_s": times,
         "status": statuses,
-        "backend": ["daqp"] * len(times),
+        "backend": ["" if status == "frozen" else "daqp" for status in statuses],
         "wall_s": wall,
         "tolerance": [0.05] * len(times),
         "reason": reasons,

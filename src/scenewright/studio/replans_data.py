@@ -52,8 +52,8 @@ def read_replans(run_dir: Path, missing: list[str]) -> Json | None:
 
 
 def _summary(rows: list[Json]) -> Json:
-    # Where the last plan still fits nothing is solved; those zeros would hide what a solve costs.
-    wall = np.array([row["wall_ms"] for row in rows if row["wall_ms"]])
+    # Where nothing is solved any more no backend was asked: looking that up takes no time that a solve would.
+    wall = np.array([row["wall_ms"] for row in rows if row["backend"] and row["wall_ms"] is not None])
     counts: dict[str, int] = {}
     for row in rows:
         counts[row["status"]] = counts.get(row["status"], 0) + 1

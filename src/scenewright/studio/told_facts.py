@@ -7,9 +7,10 @@ that it speaks of (s).
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
+from scenewright.translate.phrases import called
 from scenewright.units import in_tenths
 
 Told = tuple[str, float | None]
@@ -31,21 +32,21 @@ def _triggers(facts: Mapping[str, Any]) -> Iterator[Told]:
     for hero, time_s in (facts.get("trigger_time_s") or {}).items():
         moment = _number(time_s)
         if moment is None:
-            yield f"The trigger of {hero} never came.", None
+            yield f"The trigger of {called(hero)} never came.", None
         elif came.get(hero, True):
-            yield f"The trigger of {hero} came at {moment:.2f} s.", moment
+            yield f"The trigger of {called(hero)} came at {moment:.2f} s.", moment
         else:
-            yield f"The trigger of {hero} never came; it was nearest at {moment:.2f} s.", moment
+            yield f"The trigger of {called(hero)} never came; it was nearest at {moment:.2f} s.", moment
     for side in facts.get("closest") or ():
         error, moment = _number(side.get("error")), _number(side.get("time_s"))
         if error is None or moment is None:
             continue
-        off = f"came to within {abs(error):.2g} {side.get('unit') or ''}".rstrip()
+        off = f"came to within {in_tenths(abs(error))} {side.get('unit') or ''}".rstrip()
         there = "was there" if len(side.get("actors") or ()) < 2 else "were there"
         held = there if side.get("met") else off
         names = [str(name) for name in side.get("actors") or [side.get("who")]]
-        who, alone = " and ".join(names).capitalize(), "by itself" if len(names) == 1 else "together"
-        yield f"{who}, {alone}, {held}: {side.get('side')}.", moment
+        alone = "by itself" if len(names) == 1 else "together"
+        yield f"{_people(names)}, {alone}, {held}: {side.get('side')}.", moment
     apart = _number(facts.get("trigger_sides_apart_s"))
     if apart is not None and not all(came.values()):  # who was there at the trigger may have been there before, too
         yield f"All that a trigger waits for was there, but not at once: {apart:.2f} s apart.", None
@@ -56,24 +57,24 @@ def _manoeuvres(interaction: Mapping[str, Any]) -> Iterator[Told]:
         onset, end = _number(values.get("onset_s")), _number(values.get("end_s"))
         mean, deviation = (_number(values.get(f"{name}_mpss")) for name in ("mean_acceleration", "max_deviation"))
         if onset is None or end is None:
-            yield f"{hero.capitalize()} was not seen to begin what it was to do.", None
+            yield f"{_people([hero])} was not seen to begin what it was to do.", None
             continue
         steady = deviation is not None and deviation < _STEADY_MPSS
         even = "" if deviation is None else " throughout" if steady else f" (at most {deviation:.2f} m/s² from that)"
         at = "at" if steady else "on average at"
         rate = "" if mean is None else f", {at} {mean:.2f} m/s²{even}".replace("-", "−")
-        yield f"{hero.capitalize()} did what it was to do from {onset:.2f} to {end:.2f} s{rate}.", onset
+        yield f"{_people([hero])} did what it was to do from {onset:.2f} to {end:.2f} s{rate}.", onset
 
 
 def _pair(pair: str, values: Mapping[str, Any]) -> Iterator[Told]:
-    two = " and ".join(pair.split(", "))
+    two = _people(pair.split(", "))
     crash, moment = _number(values.get("collision_time_s")), _number(values.get("min_distance_time_s"))
     nearest = _number(values.get("min_distance_m"))
     if crash is not None:
-        yield f"{two.capitalize()} collided at {crash:.2f} s.", crash
+        yield f"{two} collided at {crash:.2f} s.", crash
     elif nearest is not None:
         apart = f"within {in_tenths(nearest)} m of each other, body to body"
-        yield f"{two.capitalize()} came {apart}, and never touched.", moment
+        yield f"{two} came {apart}, and never touched.", moment
     least, when = _number(values.get("min_ttc_s")), _number(values.get("min_ttc_time_s"))
     yield (
         (f"Their time to collision was {in_tenths(least)} s at least.", when)
@@ -85,15 +86,15 @@ def _pair(pair: str, values: Mapping[str, Any]) -> Iterator[Told]:
     )
     after = _number(values.get("post_encroachment_time_s"))
     if after is not None:
-        later = f"{in_tenths(after)} s after that had left it"
-        yield f"The second came to a place that the first had been at {later}.", None
+        yield f"One came to a place that the other had been at {in_tenths(after)} s after that had left it.", None
 
 
 def _motion(name: str, values: Mapping[str, Any]) -> Iterator[Told]:
     seen = {key: number for key, value in values.items() if (number := _number(value)) is not None}
     if {"speed", "acceleration", "deceleration", "lateral"} <= seen.keys():
         yield (
-            f"At most {name} drove at {seen['speed']:.1f} m/s, sped up by {max(0.0, seen['acceleration']):.1f} m/s², "
+            f"At most {called(name)} drove at {seen['speed']:.1f} m/s, "
+            f"sped up by {max(0.0, seen['acceleration']):.1f} m/s², "
             f"braked by {max(0.0, -seen['deceleration']):.1f} m/s², and felt {seen['lateral']:.1f} m/s² sideways.",
             None,
         )
@@ -104,6 +105,12 @@ def _motion(name: str, values: Mapping[str, Any]) -> Iterator[Told]:
             f"speeds and accelerations to {1000 * seen['speed_jump']:.1f} mm/s.",
             None,
         )
+
+
+def _people(names: Sequence[str]) -> str:
+    """Return what people are called, at the beginning of a sentence."""
+    told = " and ".join(map(called, names))
+    return told[:1].upper() + told[1:]
 
 
 def _number(value: object) -> float | None:

@@ -35,7 +35,7 @@ function buildReplans() {
 
 function summariseReplans() {
   const { count, solved, p50_ms: p50, p99_ms: p99, max_ms: most, statuses } = run.replans.summary;
-  const words = [`${count} moments, ${solved} solved`];
+  const words = [`${count} moment${count === 1 ? '' : 's'}, ${solved} solved`];
   if (isNumber(p50)) words.push(`p50 ${brief(p50)} ms`, `p99 ${brief(p99)} ms`, `max ${brief(most)} ms`);
   const keys = Object.entries(statuses).map(([status, times_]) => make('span', { class: `key ${statusClass(status)}` }, make('i'), `${times_} ${spoken(status)}`));
   byId('replans-summary').append(words.join(' · '), ...keys);
