@@ -9,6 +9,7 @@ import pytest
 from plays import BRAKES, YIELDS, YIELDS_AT_S, Play
 
 from scenewright.judge.judgement import judge
+from scenewright.judge.tolerance import LOOSE, TIGHT
 
 
 def test_ego_that_never_comes_to_the_trigger_is_told_with_evidence() -> None:
@@ -79,3 +80,14 @@ def test_who_meets_each_part_of_its_side_and_never_all_at_once_never_met_it() ->
     assert (whole["met"], whole["unit"]) == (False, "tight tolerances")
     assert 1.0 < whole["error"] <= 2.0 / 0.25
     assert not judge(replace(slows, text=slows.text + "slow: A0v(t1) <= 8\n").case()).facts["ego_never_met_condition"]
+
+
+def test_what_is_to_last_after_a_trigger_says_nothing_of_whether_it_came() -> None:
+    """The ego drives into a hero that brakes as it should: that is what came of it, 2.4 s after the trigger."""
+    hits = BRAKES.with_ego(pieces=[])
+    lasting = "never[A0(t1), A0(t1) + 5] (freespace(A0, A1) < 4)"
+    verdict = judge(replace(hits, text=f"{hits.text}apart: {lasting}\n").case())
+    assert not verdict.condition("apart").holds_at(LOOSE)
+    assert verdict.condition("apart").kind == "outcome"
+    assert verdict.facts["trigger_came"] == {"hero": True}
+    assert verdict.condition("no_collision").holds_at(TIGHT)

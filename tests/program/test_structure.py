@@ -56,6 +56,19 @@ def test_each_hero_has_a_trigger_of_its_own() -> None:
 
 
 @pytest.mark.parametrize(
+    ("line", "role"),
+    [
+        ("A0v(t1) <= 9", Role.TRIGGER),
+        ("always[A0(t1), A0(t1) + 3 s] (gap(A0, A1) >= 4)", Role.OUTCOME),
+        ("eventually[A1(t1), A1(t1) + 3 s] (A1v <= 4)", Role.INTERACTION),
+    ],
+)
+def test_what_lasts_from_a_trigger_on_is_not_asked_of_its_moment(line: str, role: Role) -> None:
+    program = parse_program(example("W", "t0, go, t1, dec, t2", f"A0(t1) == A1(t1)\n{line}"))
+    assert read_structure(program).roles[program.constraints[-1].id] is role
+
+
+@pytest.mark.parametrize(
     ("line", "trigger"),
     [("A1(t1) == 5 s", {(1, "t1")}), ("5 s == A1(t2)", {(1, "t2")}), ("A1(t1) <= 5 s", None), ("A1v(t1) == 5", None)],
 )

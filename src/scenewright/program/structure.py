@@ -21,6 +21,7 @@ from scenewright.program.expressions import (
     Number,
     PieceRef,
     State,
+    Temporal,
     walk,
 )
 from scenewright.program.types import EGO, Constraint, PieceKind, Program
@@ -212,11 +213,15 @@ def _role(constraint: Constraint, program: Program, triggers: dict[int, frozense
         return Role.INITIAL
     if list(synchronised(formula)) and any(knots <= instant for instant in triggers.values()):
         return Role.TRIGGER
-    if knots and any(knots <= instant for instant in triggers.values()) and not _speaks_of_pieces(formula):
+    if knots and any(knots <= instant for instant in triggers.values()) and not _lasts(formula):
         return Role.TRIGGER
     actors = {actor for actor, _ in knots} | {node.actor for node in walk(formula) if isinstance(node, State | Derived)}
     return Role.OUTCOME if EGO in actors else Role.INTERACTION
 
 
-def _speaks_of_pieces(formula: Node) -> bool:
-    return any(isinstance(node, State) and isinstance(node.at, PieceRef) for node in walk(formula))
+def _lasts(formula: Node) -> bool:
+    """Whether it speaks of more than a moment: of a whole piece, or of what holds, or comes, within some time."""
+    return any(
+        isinstance(node, Temporal) or (isinstance(node, State) and isinstance(node.at, PieceRef))
+        for node in walk(formula)
+    )

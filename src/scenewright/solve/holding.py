@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from scenewright.motion.profile import Profile
 from scenewright.program import expressions as ex
 from scenewright.program.evaluate import term_value, violation
-from scenewright.program.structure import KnotKey, Role, actors_of, knots_of, read_structure
+from scenewright.program.structure import KnotKey, actors_of, knots_of, read_structure
 from scenewright.program.types import EGO, Constraint, Program
 from scenewright.roads.grounding import Scene
 from scenewright.solve.feasibility import Clash, clash
@@ -54,17 +54,17 @@ def not_held(
     a trigger, or for some time: the run brings that about. What is the ego's alone is asked of one that has promised to
     drive as foreseen: what any other does instead is seen by driving.
     """
-    roles = read_structure(scene.program).roles
+    triggers = read_structure(scene.program).triggers.values()
     parameters = {name: float(value) for name, value in scene.parameters.items()}
     ego, world = profiles[EGO], PlanWorld(scene, profiles, parameters)
     passed = Profile(ego.segments, ego.knot_times_s | dict(_passed_s(scene, ego, world)))
     world.profiles = {**profiles, EGO: passed}
     open_knots = {(EGO, name) for name in scene.program.ego.sketch.knots[1:]} - _told(scene.program)
     for constraint in scene.program.constraints:
-        of_ego = actors_of(constraint.formula) == {EGO}
-        if of_ego and (not ego_promised or set(knots_of(constraint.formula)) & open_knots):
+        actors, knots = actors_of(constraint.formula), set(knots_of(constraint.formula))
+        if actors == {EGO} and (not ego_promised or knots & open_knots):
             continue
-        if roles[constraint.id] is Role.TRIGGER and actors_of(constraint.formula) > {EGO}:
+        if knots and actors > {EGO} and any(knots <= instant for instant in triggers):
             continue
         for part in _asked(constraint.formula):
             if any(actor == EGO and math.isinf(world.knot_time_s(EGO, knot)) for actor, knot in knots_of(part)):
