@@ -85,7 +85,9 @@ def told(play: Play, formula: str) -> Condition:
         ("A1v(2.5) <= 11.5", 11.5, 12.0, 0.5, "m/s"),
         ("A1v(2.5) >= 11.5", 11.5, 12.0, 0.0, "m/s"),
         ("A1x(2.503) == conflict_point - 57", 57.0, 58.0, 1.0, "m"),  # a distance to a place is told as such
-        ("A1x(2.503) <= conflict_point - 59", 41.0, 42.0, 1.0, "m"),
+        ("A1x(2.503) <= conflict_point - 59", 59.0, 58.0, 1.0, "m"),  # a bound on it, too
+        ("conflict_point - 57 == A1x(2.503)", 57.0, 58.0, 1.0, "m"),
+        ("A1x(2.503) == just before conflict_point - 52 m", 57.0, 58.0, 1.0, "m"),
         ("A1v(2.5) / A0v(2.5) <= 1.4", 1.4, 1.5, 0.1, ""),
         ("A1v(go) == 11", 11.0, 12.0, 1.0, "m/s"),  # all through a piece: its worst instant
         ("A1(t2) - A1(t1) == 5", 5.0, 14.0 / 3.0, -1.0 / 3.0, "s"),

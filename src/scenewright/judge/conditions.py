@@ -149,11 +149,25 @@ def _stated(case: Case, compare: Compare, left: Values, right: Values, best: boo
     required, value = required[worst], value[worst]
     match compare:
         # "12 m short of the stop line" is a distance; the arc length it comes to tells nobody anything.
-        case Compare("==", State(order=0, actor=actor), Arithmetic(("-" | "+") as sign, Landmark() as place, distance)):
-            asked = _constant(case, distance)
-            if asked is not None and place.actor in (None, actor):
-                return asked, asked + (float(value) - float(required)) * (1.0 if sign == "+" else -1.0)
+        case Compare(_, State(order=0, actor=actor), Arithmetic(("-" | "+") as sign) as place) | Compare(
+            _, Arithmetic(("-" | "+") as sign) as place, State(order=0, actor=actor)
+        ):
+            beyond_m = _beyond_a_landmark(case, place, actor)
+            if beyond_m is not None:
+                side = float(np.sign(beyond_m)) or (1.0 if sign == "+" else -1.0)
+                return side * beyond_m, side * (beyond_m + float(value) - float(required))
     return float(required), float(value)
+
+
+def _beyond_a_landmark(case: Case, place: Term, actor: int) -> float | None:
+    """Return how far (m) a place lies beyond the landmark of an actor that it is told from; None for any other."""
+    match place:
+        case Landmark(actor=owner):
+            return 0.0 if owner in (None, actor) else None
+        case Arithmetic(("-" | "+") as sign, nearer, distance):
+            first_m, by_m = _beyond_a_landmark(case, nearer, actor), _constant(case, distance)
+            return None if first_m is None or by_m is None else first_m + (by_m if sign == "+" else -by_m)
+    return None
 
 
 def _constant(case: Case, term: Term) -> float | None:
