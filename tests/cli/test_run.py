@@ -144,6 +144,10 @@ def test_a_collision_is_told_beside_the_success_and_can_fail_the_run(
     assert (data["status"], data["exit_status"]) == ("success", 1)
     assert data["verdict"]["aftermath"] == kept
     assert command("judge", "here").exit_code == 0
+    why = "Exit status 1: a collision is to count (--fail-on collision)."
+    assert why in command("judge", "here", "--fail-on", "collision").stdout
+    assert why in command(*words, "--fail-on", "collision").stdout
+    assert why not in result.stdout
 
 
 def test_a_near_miss_is_told_and_is_no_collision(command: Command) -> None:

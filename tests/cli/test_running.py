@@ -14,7 +14,7 @@ from rich.console import Console
 
 from scenewright.cli.running import _Shield, report_verdict
 from scenewright.judge.aftermath import Aftermath
-from scenewright.judge.verdict import Verdict
+from scenewright.judge.verdict import Verdict, bounded
 from scenewright.orchestrate import orchestrate
 from scenewright.request import EXIT_STATUS, Request
 from stories import STORIES
@@ -101,6 +101,26 @@ def test_that_the_ego_never_came_to_one_trigger_does_not_hide_that_another_came(
     told = console.export_text()
     assert "The trigger came at 4.00 s (a). The trigger of b never came; it was nearest at 5.00 s." in told
     assert "The ego never came within the tight tolerance of its side of one of them." in told
+
+
+@pytest.mark.parametrize(
+    ("missed", "status", "told"),
+    [
+        (1, "finished", "Failure: 1 of 3 conditions misses the tight tolerance."),
+        (2, "finished", "Failure: 2 of 3 conditions miss the tight tolerance."),
+        (1, "interrupted", "The run was interrupted; as far as it got, 1 condition misses the tight tolerance."),
+        (0, "interrupted", "The run was interrupted; as far as it got, 0 conditions miss the tight tolerance."),
+    ],
+)
+def test_one_condition_misses_and_several_miss(missed: int, status: str, told: str) -> None:
+    conditions = tuple(
+        bounded(str(k), "safety", "it holds", required=0.0, measured=0.0, error=float(k < missed), dimension="length")
+        for k in range(3)
+    )
+    calm = Aftermath(None, 3.0, None, None, 0.0, 0.0, None, 20.0)
+    console = Console(record=True, width=100, file=io.StringIO())
+    report_verdict(console, Verdict(conditions, calm, {}), "tight", status)
+    assert told in console.export_text()
 
 
 def test_of_a_program_without_a_trigger_none_is_told() -> None:

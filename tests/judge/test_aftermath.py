@@ -64,6 +64,8 @@ def test_braking_before_the_trigger_is_not_told_as_an_answer_to_it() -> None:
     assert came.ego_hardest_braking_time_s == pytest.approx(2.0, abs=0.03)
     assert "the ego braked with 3.0 m/s^2 at most, 2.7 s before the trigger" in came.in_words()
     assert "before the trigger" not in came_of(BRAKES).in_words()
+    several = replace(came, several_triggers=True)
+    assert "2.7 s before the first trigger" in several.in_words()
 
 
 def test_who_drives_into_whom_comes_first() -> None:

@@ -56,7 +56,7 @@ def test_without_its_path_a_route_is_not_judged_and_fails() -> None:
     assert not any(
         found[f"route_{name}_{what}"].holds_at(LOOSE) for name in ("ego", "hero") for what in ("map", "directions")
     )
-    assert "(not judged: no map)" in found["route_ego_map"].text
+    assert found["route_ego_map"].text == "the ego is on the map where its route coordinates say (not judged: no map)"
     assert "(not judged: the path of its route is not known)" in found["route_hero_map"].text
 
 

@@ -82,6 +82,12 @@ def test_it_may_be_in_the_last_instant() -> None:
     assert collisions(verdict) == {"heroes_apart"}
 
 
+def test_of_several_it_is_told_whom_the_ego_came_near() -> None:
+    came = judged(Motion(20.0, 11.0, []), Motion(-9.0, 9.5, [])).aftermath
+    assert came.in_words().startswith("no collision; closest 4.5 m (the car 'second'), ")
+    assert "whom" not in came.as_dict()
+
+
 @pytest.mark.parametrize(("at_s", "fails"), [(3.0, {"no_collision"}), (9.0, set())])
 def test_the_ego_that_is_hit_fails_only_before_the_trigger(at_s: float, fails: set[str]) -> None:
     verdict = judged(Motion(104.5, 10.0, []), Motion(4.5 + 2.0 * at_s, 8.0, []))

@@ -28,7 +28,7 @@ def judge(
 ) -> None:
     """Judge a run again, from its trace and program alone, and rewrite its verdict.json and the page that shows it."""
     with told(as_json):
-        from scenewright.cli.running import fails_on, report_verdict
+        from scenewright.cli.running import fails_on, report_verdict, tell_fails_on
         from scenewright.judge.files import VERDICT_FILE, cause_told, read_case, write_verdict
         from scenewright.judge.judgement import judge as judge_case
         from scenewright.judge.tolerance import TIGHT
@@ -42,11 +42,14 @@ def judge(
         if (directory / PAGE_FILE).is_file():
             write_page(directory)
         data = verdict.as_dict()
+        success = data["success"][tolerance]
+        status = 0 if success and not fails_on(verdict, fail_on) else 1
         if as_json:
             print_json(data)
         else:
             report_verdict(stdout(), verdict, tolerance, run_status(directory))
-        raise typer.Exit(0 if data["success"][tolerance] and not fails_on(verdict, fail_on) else 1)
+            tell_fails_on(stdout(), status, success)
+        raise typer.Exit(status)
 
 
 def view(

@@ -198,6 +198,7 @@ def _tell(request: Request, result: Result, fail_on: FailOn | None, as_json: boo
             sys.stdout.write(f"{result.run_directory}\n")
     elif result.verdict is not None:
         report_run(stdout(), request, result)
+        tell_fails_on(stdout(), status, result.status == "success")
     if result.run is None and not as_json:
         tell_no_plan(stderr(), result)
         tell_notes(stderr(), result)
@@ -211,6 +212,12 @@ def _tell(request: Request, result: Result, fail_on: FailOn | None, as_json: boo
 def fails_on(verdict: Verdict | None, fail_on: FailOn | None) -> bool:
     """Whether what came of a run is to end in status 1, though it happened as described."""
     return fail_on == "collision" and verdict is not None and verdict.aftermath.collision is not None
+
+
+def tell_fails_on(console: Console, status: int, success: bool) -> None:
+    """Say why what happened as described ends in another status than that of a success."""
+    if success and status:
+        console.print(f"Exit status {status}: a collision is to count (--fail-on collision).", soft_wrap=True)
 
 
 def result_data(request: Request, result: Result, status: int) -> dict[str, object]:
@@ -312,9 +319,9 @@ def report_verdict(console: Console, verdict: Verdict, tolerance: str, status: s
     missed = len(tables.missed(verdict, tolerance))
     if status != "finished":
         end = "was interrupted" if status == "interrupted" else "ended in a fault"
-        headline = f"The run {end}; as far as it got, {missed} conditions miss the {tolerance} tolerance."
+        headline = f"The run {end}; as far as it got, {_miss(missed)} the {tolerance} tolerance."
     elif missed:
-        headline = f"Failure: {missed} of {len(verdict.conditions)} conditions miss the {tolerance} tolerance."
+        headline = f"Failure: {_miss(missed, f' of {len(verdict.conditions)}')} the {tolerance} tolerance."
     else:
         headline = f"Success: it happened as described, within the {tolerance} tolerance."
     console.print(Text.assemble(tables.mark(not missed and status == "finished"), " ", (headline, "bold")))
@@ -323,6 +330,11 @@ def report_verdict(console: Console, verdict: Verdict, tolerance: str, status: s
         console.print(_trigger(verdict), soft_wrap=True)
     for line in tables.cause(verdict):
         console.print(line, soft_wrap=True)
+
+
+def _miss(count: int, of_all: str = "") -> str:
+    one = count == 1
+    return f"{count}{of_all} condition{'' if one and not of_all else 's'} miss{'es' if one else ''}"
 
 
 def _trigger(verdict: Verdict) -> str:

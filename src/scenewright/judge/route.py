@@ -32,15 +32,15 @@ def route_conditions(case: Case) -> list[Condition]:
 
 
 def _route(case: Case, actor: Actor) -> Iterator[Condition]:
-    states, name = case.timelines[actor.id].states, actor.name
+    states, name, who = case.timelines[actor.id].states, actor.name, called(actor.name)
     lateral = float(np.max(np.abs(states.d_m)))
-    yield _limit(f"route_{name}", f"{name} stays on the line of its route", MAX_LATERAL_M, lateral, "m")
+    yield _limit(f"route_{name}", f"{who} stays on the line of its route", MAX_LATERAL_M, lateral, "m")
     angle = _slip_angle(states)
-    yield _limit(f"route_{name}_heading", f"{name} drives where it points", MAX_ANGLE_RAD, angle, "rad")
+    yield _limit(f"route_{name}_heading", f"{who} drives where it points", MAX_ANGLE_RAD, angle, "rad")
     back = float(np.max(np.maximum.accumulate(states.s_m) - states.s_m))
-    yield _limit(f"route_{name}_progress", f"{name} never goes back along its route", BACK_M, back, "m")
+    yield _limit(f"route_{name}_progress", f"{who} never goes back along its route", BACK_M, back, "m")
     yield _headings(case, actor, case.expected_headings.get(name, ()))
-    text = f"{name} is on the map where its route coordinates say"
+    text = f"{who} is on the map where its route coordinates say"
     try:
         yield _limit(f"route_{name}_map", text, MAX_MAP_ERROR_M, _map_error(case, actor), "m")
     except CannotJudge as reason:
