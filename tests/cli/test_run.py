@@ -100,7 +100,7 @@ def test_infeasible_is_explained_and_leaves_no_folder(command: Command, folder: 
     assert result.exit_code == 3
     assert "This cannot happen" in result.stderr
     assert "It would be possible with" in result.stderr
-    assert "m/s instead of 55.56 m/s" in result.stderr
+    assert "km/h instead of 200 km/h" in result.stderr
     assert listed(folder) == set()
 
 

@@ -83,8 +83,8 @@ def test_what_is_looked_up_by_name_is_what_bears_it(program: Program) -> None:
 
 def test_words_are_those_that_a_constraint_points_at() -> None:
     formula = Compare("==", State(0, 1, Knot("t0")), Number(Fraction(1)))
-    told, untold = Constraint("c1", formula, Span(4, 9)), Constraint("c2", formula)
+    told, untold = Constraint("c1", formula, Span(4, 16)), Constraint("c2", formula)
     actors = (Actor(0, "ego", HeadingsRoute(("E",)), Sketch(("t0",), ())),)
-    program = Program("p", actors, (told, untold), description="The hero stops")
-    assert (program.words_of(told), program.words_of(untold)) == ("hero ", None)
+    program = Program("p", actors, (told, untold), description="The hero\n  stops there")
+    assert (program.words_of(told), program.words_of(untold)) == ("hero stops", None), "on one line"
     assert Program("p", actors, (told,)).words_of(told) is None

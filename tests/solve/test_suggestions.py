@@ -152,6 +152,18 @@ def test_bounds_of_a_stretch_of_time_have_ways_out_in_their_own_unit(line: str, 
     assert found[0].nearest == pytest.approx(nearest, abs=0.3)
 
 
+def test_a_number_is_told_in_the_unit_of_whoever_gave_it() -> None:
+    """Who wrote 26 ft looks for no 7.9248, and what is set by the name of a parameter is in the unit of that name."""
+    said = "the hero is 26 ft before the conflict point at speed_mph"
+    text = f"The ego drives west. An oncoming hero turns left. When {said}, the hero brakes to a stop 5 m before it."
+    result = orchestrate(Request(text, parameters={"speed_mph": 30.0}), until="plan")
+    assert result.feasibility is not None
+    told = {each.what: (each.value, each.unit) for each in result.feasibility.suggestions}
+    assert told == {f'26 in "{said}"': (26.0, "ft"), "speed_mph": (30.0, "mph")}
+    faster = {each.what: each.nearest for each in result.feasibility.suggestions}["speed_mph"]
+    assert orchestrate(Request(text, parameters={"speed_mph": faster}), until="check").status == "success"
+
+
 def test_a_factor_has_no_unit() -> None:
     text = BRAKES.text + "c8: A1v(t1) == 3 * A0v(t1)\nc9: A0v(t1) == 9\nc10: A1v(t1) <= 3 m/s * 2\n"
     scene = ground(parse_program(text), T)

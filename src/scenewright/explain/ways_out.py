@@ -43,8 +43,6 @@ class _Trial:
 
     lever: Lever
     value: Fraction
-    unit: str
-    si_factor: Fraction
 
     @property
     def is_parameter(self) -> bool:
@@ -52,8 +50,11 @@ class _Trial:
 
     def way_out(self) -> WayOut:
         name = self.lever.name if self.is_parameter else None
-        instead_of = float(self.lever.value / self.si_factor)
-        return WayOut(self.lever.what, float(self.value), instead_of, self.unit, name)
+        instead_of = float(self.lever.value / self.lever.si_factor)
+        return WayOut(self.lever.what, float(self.value), instead_of, self.lever.unit, name)
+
+    def in_si(self) -> Fraction:
+        return self.value * self.lever.si_factor
 
 
 def ways_out(
@@ -84,7 +85,7 @@ def ways_out(
     for trial in _trials(scene, verdict, tolerance):
         if tries >= _TRIES or len(found) >= _ENOUGH or driven_s > _ALL_S:
             break
-        program = trial.lever.put(scene.program, Number(trial.value * trial.si_factor))
+        program = trial.lever.put(scene.program, Number(trial.in_si()))
         if trial.lever.what in found or not (trial.is_parameter or program != scene.program):
             continue
         report(f"trying what would do: {trial.way_out()}")
@@ -124,9 +125,9 @@ def _trials(scene: Scene, verdict: Verdict, tolerance: Tolerance) -> Iterator[_T
         (lever, lever.value * (egos if of_ego else heros)) for egos, heros in shares for lever, of_ego in known.values()
     ]
     for lever, value in [*_measured(scene, verdict, failed), *steps]:
-        trial = _readable(scene, lever, value)
+        trial = _readable(lever, value)
         key = (lever.what, trial.value)
-        if trial.value * lever.value > 0 and trial.value * trial.si_factor != lever.value and key not in seen:
+        if trial.value * lever.value > 0 and trial.in_si() != lever.value and key not in seen:
             seen.add(key)
             yield trial
 
@@ -151,12 +152,8 @@ def _measured(scene: Scene, verdict: Verdict, failed: Sequence[str]) -> Iterator
                     yield lever, lever.value + sign * Fraction(off)
 
 
-def _readable(scene: Scene, lever: Lever, value: Fraction) -> _Trial:
-    """Return a value as people would write it, in the unit of the parameter's name or in SI units."""
-    unit, factor = lever.unit, Fraction(1)
-    if lever.number is None:
-        own = next(p for p in scene.program.parameters if p.name == lever.name).unit
-        unit, factor = own.symbol, own.si_factor
-    inside = value / factor
+def _readable(lever: Lever, value: Fraction) -> _Trial:
+    """Return a value (SI) as people would write it, in the unit that they know it in."""
+    inside = value / lever.si_factor
     digits = 1 if abs(inside) >= 1 else 2
-    return _Trial(lever, Fraction(round(inside * 10**digits), 10**digits), unit, factor)
+    return _Trial(lever, Fraction(round(inside * 10**digits), 10**digits))

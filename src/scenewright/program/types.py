@@ -186,7 +186,7 @@ class Program:
         raise KeyError(constraint_id)
 
     def words_of(self, constraint: Constraint) -> str | None:
-        """Return the stretch of the description that `constraint` came from, or None."""
+        """Return the stretch of the description that `constraint` came from, on one line, or None."""
         if self.description is None or constraint.source is None:
             return None
-        return constraint.source.excerpt(self.description)
+        return " ".join(constraint.source.excerpt(self.description).split())

@@ -17,8 +17,9 @@ from scenewright.roads.grounding import Scene
 from scenewright.solve.proofs.decide import Question, decide, shown
 from scenewright.solve.proofs.forms import compared_dimension
 from scenewright.solve.proofs.witness import Witness
+from scenewright.translate.decompile import in_a_unit
 from scenewright.translate.lines import in_words
-from scenewright.units import SI_SYMBOL, Dimension, decimal_fraction, format_fraction
+from scenewright.units import SI_SYMBOL, UNITS, Dimension, decimal_fraction, format_fraction
 
 # For one value, and for all, in the seconds of a search, which counts its work: a busy machine proposes the same. Of
 # 160 values that do half are seen to with one first guess, and one in thirty takes more than six. Chosen.
@@ -51,20 +52,17 @@ class Suggestion:
 class Lever:
     """One number of a program that could be another: a parameter, or one that is written in a constraint.
 
-    `value` is in SI units, `name` the parameter's or one that a written number can be given; a `number` that is written
-    is that node of the program, None for a parameter.
+    `value` is in SI units, `unit` the one of whoever gave it, with what that is worth; `name` is the parameter's or one
+    that a written number can be given; a `number` that is written is that node of the program.
     """
 
     what: str
     value: Fraction
     dimension: Dimension | None
+    unit: str
+    si_factor: Fraction
     name: str
     number: Number | None = None
-
-    @property
-    def unit(self) -> str:
-        """The symbol of its SI unit; empty where it has none."""
-        return SI_SYMBOL[self.dimension] if self.dimension is not None else ""
 
     def put(self, program: Program, term: Term) -> Program:
         """Return the program with `term` in place of the written number; the same one for a parameter."""
@@ -85,7 +83,8 @@ def suggest(question: Question, core: set[str]) -> Iterator[Suggestion]:
         until_s = max(_ROUNDED_S, trials.left_s * (1.0 - 1.0 / (len(found) - number)))
         nearest = trials.readable(lever, trials.nearest(lever, far_off, until_s))
         if nearest is not None:
-            yield Suggestion(lever.what, float(lever.value), float(nearest), lever.unit)
+            value, nearest = lever.value / lever.si_factor, nearest / lever.si_factor
+            yield Suggestion(lever.what, float(value), float(nearest), lever.unit)
 
 
 def levers(scene: Scene, constraints: Container[str]) -> Iterator[Lever]:
@@ -100,16 +99,19 @@ def levers(scene: Scene, constraints: Container[str]) -> Iterator[Lever]:
         for node, dimension in ((node, compared_dimension(part)) for part in compared for node in walk(part)):
             if isinstance(node, ParameterRef) and node.name in scene.parameters and node.name not in seen:
                 seen.add(node.name)
-                parameter = next(p for p in program.parameters if p.name == node.name)
-                yield Lever(node.name, scene.parameters[node.name], parameter.unit.dimension, node.name)
+                own = next(p for p in program.parameters if p.name == node.name).unit
+                known_in = own.dimension, own.symbol, own.si_factor
+                yield Lever(node.name, scene.parameters[node.name], *known_in, node.name)
             elif isinstance(node, Number):
                 if node.value == 0 and dimension not in _FROM_ZERO:
                     continue
                 is_code = program.description is None  # whoever wrote the program looks for its line
                 said = print_expression(constraint.formula) if is_code else f'"{in_words(program, constraint)}"'
-                what = f"{format_fraction(node.value)} in {said}"
-                own = node.dimension or (None if multiplies else dimension)  # a factor has none
-                yield Lever(what, node.value, own, f"free_{constraint.id}", node)
+                of = node.dimension or (None if multiplies else dimension)  # a factor has none
+                unit = "" if of is None else SI_SYMBOL[of] if is_code else in_a_unit(node.value, of).unit
+                si_factor = UNITS[unit].si_factor if unit else Fraction(1)
+                what = f"{format_fraction(node.value / si_factor)} in {said}"
+                yield Lever(what, node.value, of, unit, si_factor, f"free_{constraint.id}", node)
 
 
 @dataclass(slots=True)
@@ -173,15 +175,15 @@ class _Trials:
 
         A witness may be off by rounding, a proof is not: who takes the number is not to be told that it cannot be.
         """
-        every = (each for digits in _DECIMALS for each in _rounded(best, lever.value, digits))
+        steps = (lever.si_factor / 10**digits for digits in _DECIMALS)
+        every = (each for step in steps for each in _rounded(best, lever.value, step))
         readable = dict.fromkeys(each for each in every if each != lever.value)
         tried = (each for each in (*readable, best) if self.left_s > 0.0)
         does = (each for each in tried if self.witness(lever, each))
         return next((e for e in does if decide(self.asked(lever, e), explain=False).answer != "infeasible"), None)
 
 
-def _rounded(found: Fraction, origin: Fraction, digits: int) -> tuple[Fraction, Fraction]:
-    """Return a number with so many decimals: the nearest, and the next one away from the value that did not work."""
-    scaled = found * 10**digits
-    away = floor(scaled) if found < origin else floor(scaled) + 1
-    return Fraction(round(scaled), 10**digits), Fraction(away, 10**digits)
+def _rounded(found: Fraction, origin: Fraction, step: Fraction) -> tuple[Fraction, Fraction]:
+    """Return whole steps: the nearest to a number, and the next one away from the value that did not work."""
+    away = floor(found / step) if found < origin else floor(found / step) + 1
+    return round(found / step) * step, away * step

@@ -348,7 +348,7 @@ def right_side(form: Linear, dimension: Dimension) -> tuple[bool, st.Amount]:
     """Return what stands on the other side of a comparison: whether below zero, and one number or one parameter."""
     parameters = form.of(ex.ParameterRef)
     if not parameters:
-        return form.constant > 0, _in_a_unit(abs(form.constant), dimension)
+        return form.constant > 0, in_a_unit(abs(form.constant), dimension)
     (reference, factor), *more = parameters.items()
     assert isinstance(reference, ex.ParameterRef)
     unit = unit_of_name(reference.name)
@@ -357,7 +357,7 @@ def right_side(form: Linear, dimension: Dimension) -> tuple[bool, st.Amount]:
     return factor > 0, st.Amount(None, unit.symbol, reference.name)
 
 
-def _in_a_unit(value: Fraction, dimension: Dimension) -> st.Amount:
+def in_a_unit(value: Fraction, dimension: Dimension) -> st.Amount:
     """Return an amount as it was most likely written: in SI units, or where it is shortest: 30 mph, not 13.4112 m/s."""
     si = SI_SYMBOL[dimension]
     written = {symbol: format_fraction(value / unit.si_factor) for symbol, unit in UNITS.items()

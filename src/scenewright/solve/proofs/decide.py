@@ -33,7 +33,8 @@ _TRIES = (4, 0.15), (12, 0.4), (1000, 0.1)
 _WORK_PER_S = 4_000_000
 _RANGES = {
     "time": f"everything happens within {float(LONGEST_S):g} s of the start",
-    "speed": "how fast anybody may be: {tops}",
+    "speed": "how fast anybody may be: {speeds}",
+    "rate": "how hard anybody may brake and speed up: {rates}",
     "place": "where the routes begin and end",
 }
 _WIDER = 1000  # a range so much wider is none
@@ -154,16 +155,19 @@ def _core(question: Question) -> tuple[str, ...]:
         wide = (replace(each, low=-_WIDER * each.high, high=_WIDER * each.high) for each in unknowns)
         wider = [new if old.kind == kind else old for old, new in zip(unknowns, wide, strict=True)]
         if answer_of(refuter, wider, rests_on, 0.2).kind == "met":
-            ranges.append(words.format(tops=_tops(question, kept)))
+            ranges.append(words.format(**_free(question, kept)))
     return (*kept, *laws, *ranges)
 
 
-def _tops(question: Question, kept: Collection[str]) -> str:
-    """Return between which speeds those are of whom the constraints that clash speak."""
+def _free(question: Question, kept: Collection[str]) -> dict[str, str]:
+    """Return between which speeds and rates those are of whom the constraints that clash speak."""
     program = question.scene.program
     told = {actor for each in kept for actor in actors_of(program.constraint(each).formula)}
-    tops = {EGO: question.ego.speed_max_mps} | {h.id: question.limits[h.id].speed_max_mps for h in program.heroes}
-    return ", ".join(f"{program.actor(actor).name} 0 to {tops[actor]:.4g} m/s" for actor in sorted(told or tops))
+    laws = {EGO: question.ego.law()} | {hero.id: question.limits[hero.id].law() for hero in program.heroes}
+    free = {program.actor(actor).name: laws[actor] for actor in sorted(told or laws)}
+    speeds = ", ".join(f"{who} 0 to {float(law.speed_high):.4g} m/s" for who, law in free.items())
+    rates = (f"{who} {float(law.rate_low):.4g} to {float(law.rate_high):.4g} m/s^2" for who, law in free.items())
+    return {"speeds": speeds, "rates": ", ".join(rates)}
 
 
 def _posed(question: Question, kept: Collection[str]) -> tuple[list[Unknown], list[Named]]:
