@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pyarrow.parquet as parquet
 import pytest
 
 from scenewright.orchestrate import orchestrate
@@ -217,6 +218,27 @@ def test_nothing_scrolls_sideways(browser: Any, run_dir: Path, width: int, schem
     scrolled, shown = view.page.evaluate("[document.documentElement.scrollWidth, document.documentElement.clientWidth]")
     view.context.close()
     assert scrolled <= shown
+
+
+def test_on_a_phone_sentences_are_wide_enough_to_read(browser: Any, run_dir: Path) -> None:
+    """What was understood takes its row where nothing stands beside it, and conditions are no columns of words."""
+    view = Opened(browser, write_page(run_dir), 390)
+    width = "([one, other]) => document.querySelector(one).offsetWidth / document.querySelector(other).offsetWidth"
+    assert view.page.evaluate(width, ["#understood li span", "#understood li"]) > 0.95
+    assert view.page.evaluate(width, ["#condition-table .said", "body"]) > 0.4
+    view.context.close()
+    wide = Opened(browser, write_page(run_dir))
+    assert wide.page.evaluate(width, ["#understood li span:only-child", "#understood li"]) > 0.95
+    wide.context.close()
+
+
+@pytest.mark.parametrize(("count", "told"), [(1, "1 moment, 1 solved · p50"), (2, "2 moments, 1 solved · p50")])
+def test_what_is_frozen_is_not_counted_as_solved(browser: Any, run_dir: Path, count: int, told: str) -> None:
+    path = run_dir / "replans.parquet"
+    parquet.write_table(parquet.read_table(path).slice(0, count), path)
+    view = Opened(browser, write_page(run_dir))
+    assert view.page.inner_text("#replans-summary").startswith(told)
+    view.context.close()
 
 
 def test_hostile_words_are_shown_and_not_run(browser: Any, run_dir: Path) -> None:
