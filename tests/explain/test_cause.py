@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from scenewright.explain.cause import _denied, cause_of
+from scenewright.explain.cause import _denied, _Miss, _planned_so, cause_of
 from scenewright.judge.files import cause_told, write_verdict
 from scenewright.judge.tolerance import TIGHT, Leaf
 from scenewright.judge.verdict import Cause, Condition, bounded
@@ -270,3 +270,24 @@ def test_what_comes_after_a_crash_is_not_told_as_its_cause() -> None:
     assert (told.kind, told.evidence["misses"]) == ("plan", "no_collision")
     assert told.evidence["time_s"] <= result.verdict.aftermath.collision.time_s
     assert result.verdict.aftermath.collision.in_words() in told.text
+
+
+@pytest.mark.parametrize(
+    ("by", "told"),
+    [
+        (0.1, "does all that was asked of the hero, as far as it was foreseen; what came of it misses"),
+        (0.8, "does all that was asked of the hero but for 0.8 tight tolerances, as far as it was foreseen; what"),
+        (1.3, "within its limits: the last one, of 1.0 s, missed by 1.3 tight tolerances, and what came of it misses"),
+    ],
+)
+def test_a_plan_within_the_tight_tolerance_is_one_that_does_what_was_asked(by: float, told: str) -> None:
+    result = driven("yields, distance", "constant")
+    run, verdict = result.run, result.verdict
+    assert run is not None
+    assert verdict is not None
+    tick = replace(run.replans[0], time_s=1.0, tolerance=by, foreseen=run.last_plan.profiles[0])
+    off = bounded("c2", "trigger", "it is there", required=6.0, measured=6.53, error=0.53, dimension="length")
+    world, _ = set_up(Request(STORIES["yields, distance"]), Stages(None))
+    found = _planned_so(_Miss(world, replace(run, replans=[tick]), verdict, [off], None), 2.0)
+    assert told in found.text
+    assert found.text.endswith('misses "it is there" by 0.53 m')

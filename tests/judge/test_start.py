@@ -79,7 +79,9 @@ def test_a_hero_that_is_put_behind_another_is_judged_as_the_ego_is() -> None:
     traces = {"ego": actor_trace(chased, time_s, LINE), "lead": actor_trace(Motion(-7.0, 12.0, SAVED), time_s, LINE)}
     for first, held in (("go", False), ("dec", True)):  # who is told to brake does
         text = PROGRAM.format(asked="", first=first)
-        assert start_condition(Case(parse_program(text), {}, {}, {}, Trace(traces))).holds_at(LOOSE) is held
+        condition = start_condition(Case(parse_program(text), {}, {}, {}, Trace(traces)))
+        assert condition.holds_at(LOOSE) is held
+        assert condition.text.endswith(" (not what the car 'lead' does)") is not held
 
 
 @pytest.mark.parametrize(

@@ -257,16 +257,15 @@ def _planned_so(miss: _Miss, until_s: float) -> Finding:
     """Return what is left: it was planned so, though nothing stood against it."""
     run, hero, first = miss.run, miss.hero, miss.missed[0]
     planned = [tick for tick in run.replans if tick.foreseen is not None and tick.time_s < until_s]
-    last = planned[-1] if planned else run.replans[0]
+    last, off = planned[-1] if planned else run.replans[0], first.off_by and f" by {first.off_by}"
     evidence = {"hero": hero.name, "time_s": last.time_s, "missed": last.tolerance, "misses": first.id}
-    if not miss.failed or last.tolerance <= GOOD:
-        came = f": {miss.hit.in_words()}" if miss.hit else ""
+    if not miss.failed or last.tolerance <= 1.0:
+        but = "" if last.tolerance <= GOOD else f" but for {last.tolerance:.1f} tight tolerances"
         return Finding(
-            f"the last plan, of {last.time_s:.1f} s, does all that was asked of {called(hero.name)}, as far as it was "
-            f'foreseen; what came of it misses "{first.text}"{came}',
+            f"the last plan, of {last.time_s:.1f} s, does all that was asked of {called(hero.name)}{but}, as far as it "
+            f'was foreseen; what came of it misses "{first.text}"' + (f": {miss.hit.in_words()}" if miss.hit else off),
             evidence,
         )
-    off = first.off_by and f" by {first.off_by}"
     return Finding(
         f"no plan was found that does all that was asked of {called(hero.name)}, though for most of the time it was "
         f"within its limits: the last one, of {last.time_s:.1f} s, missed by {last.tolerance:.1f} tight tolerances, "

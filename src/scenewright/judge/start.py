@@ -22,15 +22,18 @@ from scenewright.program.starts import AT_ONCE_S, HARD_MPSS, kept_m, says_how_ne
 from scenewright.program.structure import Role, knots_of
 from scenewright.program.types import EGO, PieceKind
 from scenewright.translate.lines import told_formulas
+from scenewright.translate.phrases import called
 
 _INSTANT_S = 0.001  # who touches another meets it at once: no way is divided by no time
 
 
 def start_condition(case: Case) -> Condition:
     """Judge that nobody who begins near to another has to brake hard at once."""
-    braked = {actor.id: _hardest_braking_mpss(case, actor.id) for actor in case.program.actors}
-    hardest = max((rate for who, rate in braked.items() if rate > HARD_MPSS and _is_put_near(case, who)), default=0.0)
-    text = "nobody begins so near to another that it brakes hard at once, unless the program puts it there"
+    braked = ((_hardest_braking_mpss(case, actor.id), actor.id) for actor in case.program.actors)
+    near = ((rate, who) for rate, who in braked if rate > HARD_MPSS and _is_put_near(case, who))
+    hardest, who = max(near, default=(0.0, None))
+    whose = "" if who is None else f" (not what {called(case.name(who))} does)"
+    text = f"nobody begins so near to another that it brakes hard at once, unless the program puts it there{whose}"
     return bounded(
         "start", "safety", text,
         required=HARD_MPSS, measured=hardest, error=max(0.0, hardest - HARD_MPSS), dimension="acceleration",
