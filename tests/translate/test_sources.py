@@ -38,6 +38,9 @@ def test_a_file_is_read_whatever_mark_it_begins_with(tmp_path: Path) -> None:
 def test_source_that_is_no_file_is_told_by_its_name(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="no such file"):
         read_scenario(str(tmp_path / "nothing.scene"))
+    (tmp_path / "built.py").write_text('"""A car turns left."""\nscene.text()\n', encoding="utf-8")
+    with pytest.raises(InputError, match="this is Python"):
+        read_scenario(str(tmp_path / "built.py"))
     (tmp_path / "picture.txt").write_bytes(b"\xff\xfe\x00\xd8")
     with pytest.raises(InputError, match="cannot be read as text"):
         read_scenario(str(tmp_path / "picture.txt"))

@@ -69,6 +69,9 @@ def text_of(source: str) -> tuple[str, str]:
     path = Path(source)
     with suppress(OSError, ValueError):  # too long or too odd for a file name: a description
         if source.strip() and path.is_file():
+            if path.suffix == ".py":
+                expected, fix = "a description, or the text form of a program", "run it, and give what `text()` returns"
+                raise InputError("this is Python", place=Place(source), expected=expected, fix=fix)
             return _read_text(path), path.name
     if path.suffix in (".txt", ".scene", ".md") and " " not in source.strip():
         fix = "give the path of a file, or the description itself in quotes"
