@@ -39,6 +39,7 @@ from scenewright.program.types import (
 
 KINDS = [str(kind) for kind in PieceKind]
 names = st.from_regex(r"[a-z_][a-z0-9_]{0,7}", fullmatch=True)
+odd_names = st.sampled_from(["hero 2", "Blue-2", 'the "big" one', "Ümit", "7 (seven)"])  # of people in prose
 knots = names.filter(lambda name: name.rstrip("0123456789") not in KINDS)
 parameter_names = st.builds(
     lambda stem, unit: stem + unit, names, st.sampled_from(["_m", "_s", "_mps", "_mpss", "_ft"])
@@ -135,7 +136,7 @@ def programs(draw: st.DrawFn) -> Program:
     spans = st.none() | st.builds(Span, st.integers(0, 40), st.integers(0, 40))
     return Program(
         draw(words),
-        tuple(Actor(i, draw(names), draw(routes), draw(sketches())) for i in range(count)),
+        tuple(Actor(i, draw(names | odd_names), draw(routes), draw(sketches())) for i in range(count)),
         tuple(
             Constraint(label or f"c{i}", f, draw(spans))
             for i, (label, f) in enumerate(zip(ids, drawn, strict=True), start=1)

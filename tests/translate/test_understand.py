@@ -10,6 +10,8 @@ from pathlib import Path
 import pytest
 
 from scenewright.errors import InputError, MapError, TranslationError
+from scenewright.program.printer import print_program
+from scenewright.program.text import parse_program
 from scenewright.roads.grounding import ground
 from scenewright.roads.load import load_map
 from scenewright.translate.read.sentences import read
@@ -197,3 +199,10 @@ def test_who_drives_alone_is_told_so_in_plain_words() -> None:
     with pytest.raises(TranslationError, match="nobody but the ego") as caught:
         understand("The ego drives west.")
     assert "Actor" not in str(caught.value)
+
+
+@pytest.mark.parametrize("who", ["hero 2", "car B", "car 'Red One'", "van 'Blue-2'"])
+def test_what_a_text_calls_somebody_can_be_written_as_a_program_and_read(who: str) -> None:
+    said = f"The ego is headed west and goes straight on. The {who} is headed east and turns left. When the ego is "
+    program = understand(f"{said}25 m before the conflict point, the {who} brakes to a stop.").program
+    assert parse_program(print_program(program)) == program

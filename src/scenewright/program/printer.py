@@ -5,6 +5,8 @@ What enters: a `Program` or one of its expressions. What leaves: text. It decide
 
 from __future__ import annotations
 
+import re
+
 from scenewright.program import expressions as ex
 from scenewright.program.manner import NUMBERS
 from scenewright.program.types import (
@@ -19,6 +21,7 @@ from scenewright.program.types import (
 )
 from scenewright.units import format_fraction
 
+_NAME = r"[A-Za-z_][A-Za-z0-9_]*"  # any other stands in quotes
 _PRECEDENCE = {"implies": 1, "or": 2, "and": 3, "not": 4, "compare": 5, "+": 6, "-": 6, "*": 7, "/": 7, "neg": 8}
 
 
@@ -135,7 +138,8 @@ def _actor(actor: Actor) -> list[str]:
     steps = [actor.sketch.knots[0]]
     for piece, knot in zip(actor.sketch.pieces, actor.sketch.knots[1:], strict=True):
         steps += [str(piece), knot]
-    return [f"Actor {actor.id} ({actor.name}):", f"- {print_route(actor.route)}", f"- [{', '.join(steps)}]"]
+    name = actor.name if re.fullmatch(_NAME, actor.name) else f'"{_escape(actor.name)}"'
+    return [f"Actor {actor.id} ({name}):", f"- {print_route(actor.route)}", f"- [{', '.join(steps)}]"]
 
 
 def _constraint(constraint: Constraint, automatic_id: str) -> str:

@@ -145,7 +145,7 @@ class _Builder(Transformer[Token, Any]):
 
     def map(self, meta: Meta, items: list[Any]) -> tuple[str, str, Span]:
         token = items[0]
-        return "map_name", _unquote(token) if token.type == "STRING" else str(token), self._span(meta)
+        return "map_name", _name(token), self._span(meta)
 
     def description(self, meta: Meta, items: list[Any]) -> tuple[str, str, Span]:
         quoted = next(item for item in items if item is not None and item.type == "STRING")
@@ -211,7 +211,7 @@ class _Builder(Transformer[Token, Any]):
         number, name, route, sketch = parts
         actor_id = int(number)
         default = "ego" if actor_id == 0 else "hero" if actor_id == 1 else f"hero{actor_id}"
-        return Actor(actor_id, str(name) if name else default, route, sketch, self._span(meta))
+        return Actor(actor_id, _name(name) if name else default, route, sketch, self._span(meta))
 
     def headings(self, meta: Meta, items: list[Any]) -> HeadingsRoute:
         return HeadingsRoute(tuple(str(item) for item in items))
@@ -423,6 +423,10 @@ def _with_used_parameters(declared: list[Parameter], constraints: tuple[Constrai
                 known.add(node.name)
                 result.append(Parameter(node.name, span=node.span))
     return tuple(result)
+
+
+def _name(token: Token) -> str:
+    return _unquote(token) if token.type == "STRING" else str(token)
 
 
 def _unquote(token: Token) -> str:
