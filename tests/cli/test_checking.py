@@ -25,7 +25,7 @@ def test_one_line_for_each(command: Command, folder: Path) -> None:
     assert result.exit_code == 3
     good, bad = result.stdout.strip().splitlines()
     assert good.split() == ["feasible", "good.txt"]
-    assert bad.startswith("infeasible  bad.txt  c")
+    assert bad.startswith("infeasible  bad.txt  the hero ")  # in words: a description has no names for what it asks
     assert command("check", "good.txt", "good.txt").exit_code == 0
 
 

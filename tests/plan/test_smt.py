@@ -74,6 +74,7 @@ def test_an_ego_off_its_drive_costs_tolerance_and_not_the_plan() -> None:
             assert record.reason.startswith("refuted at 0")
         if status == "unsat":
             assert planner.plan is before  # what is in force goes on
+        assert (record.foreseen is None) == (status == "unsat")  # and foresaw nothing now
 
 
 # -- what it does not take --------------------------------------------------------------------------------------------

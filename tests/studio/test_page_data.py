@@ -83,6 +83,17 @@ def test_moments_are_told_by_what_happens_at_them(run_dir: Path) -> None:
     assert told == {"t0": "start", "t1": "the hero begins to brake", "t2": "the hero finishes braking"}
 
 
+def test_where_a_trigger_never_came_nothing_begins_and_at_the_end_nothing_is_over(run_dir: Path, edit: Edit) -> None:
+    def nearest(verdict: Any) -> None:
+        times = {"t0": 0.0, "t1": 4.0, "t2": collect(run_dir)["time"][-1]}
+        verdict["facts"].update(trigger_came={"hero": False}, knot_times_s={"hero": times, "ego": times})
+
+    edit(run_dir / "verdict.json", nearest)
+    data = collect(run_dir)
+    assert {name: words for name, _, words in actor_named(data, "hero")["knots"]} == {"t0": "start", "t1": "", "t2": ""}
+    assert {name: words for name, _, words in actor_named(data, "ego")["knots"]}["t1"] == ""
+
+
 def test_what_was_understood_is_that_of_the_manifest_or_what_the_program_says(run_dir: Path, edit: Edit) -> None:
     said = [line["sentence"] for line in collect(run_dir)["understood"]]
     assert said[:2] == ["The ego is headed south and turns right.", "The hero is headed west and goes straight on."]

@@ -131,7 +131,7 @@ def _in_short(result: Result) -> list[str]:
     found = result.feasibility
     if found is None or found.answer == "feasible":
         return []
-    return [found.reason or ", ".join(clash.id for clash in found.clashes)]
+    return [found.reason or "; ".join(clash.told or clash.id for clash in found.clashes)]
 
 
 def _missed(result: Result) -> list[str]:

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scenewright.errors import InputError, Place, ProgramError
+from scenewright.program.structure import KnotKey, read_structure
 from scenewright.program.types import Program
 from scenewright.roads.bodies import VEHICLE_LENGTH_M, VEHICLE_WIDTH_M
 from scenewright.studio.program_data import clauses, condition_times, places, triggers
@@ -29,6 +30,7 @@ from scenewright.translate.compile import UNNAMED
 Json = dict[str, Any]
 
 MAX_SAMPLES = 2000  # per actor
+_AN_INSTANT_S = 1e-3
 _MAX_SAMPLES_IN_ALL = 12_000  # what keeps the page of a run with many actors under a megabyte
 _DEFAULT_SIZE_M = (VEHICLE_LENGTH_M, VEHICLE_WIDTH_M)
 
@@ -74,7 +76,7 @@ def collect(run_dir: Path) -> Json:
         "origin": list(scene.origin_xy_m),
         "map": scene.roads,
         "time": _numbers(trace.time_s[chosen], 4),
-        "actors": _actors(trace, chosen, manifest, plan, scene, _in_order(knots, program)),
+        "actors": _actors(trace, chosen, manifest, plan, scene, _in_order(knots, program, came, trace)),
         "triggers": reached,
         "places": places(program) if program else None,
         "conditions": _conditions(verdict, program, knots, reached),
@@ -235,11 +237,11 @@ def _knots(manifest: Json, verdict: Json | None) -> dict[str, dict[str, float]]:
     }
 
 
-def _in_order(knots: Mapping[str, Mapping[str, float]], program: Program | None) -> dict[str, list[list[Any]]]:
+def _in_order(
+    knots: Mapping[str, Mapping[str, float]], program: Program | None, came: Mapping[str, bool], trace: Trace
+) -> dict[str, list[list[Any]]]:
     """Return by actor its knots in time: name, moment, and what happens then; nothing where nothing is said of it."""
-    from scenewright.translate.lines import told_knots
-
-    told = told_knots(program) if program else {}
+    told = _happens(program, knots, came, float(trace.time_s[-1])) if program else {}
     numbers = {actor.name: actor.id for actor in program.actors} if program else {}
     return {
         actor: [
@@ -248,6 +250,25 @@ def _in_order(knots: Mapping[str, Mapping[str, float]], program: Program | None)
         ]
         for actor, own in knots.items()
     }
+
+
+def _happens(
+    program: Program, knots: Mapping[str, Mapping[str, float]], came: Mapping[str, bool], end_s: float
+) -> dict[KnotKey, str]:
+    """Return what happens at knots, but where a trigger never came.
+
+    At what is nearest to it nothing begins, and at the end of the run nothing that was to follow.
+    """
+    from scenewright.translate.lines import told_knots
+
+    told = told_knots(program)
+    for hero, instant in read_structure(program).triggers.items():
+        name = program.actor(hero).name
+        if not came.get(name, True):
+            own = knots.get(name, {}).items()
+            unseen = instant | {(hero, knot) for knot, time_s in own if time_s >= end_s - _AN_INSTANT_S}
+            told = {key: words for key, words in told.items() if key not in unseen}
+    return told
 
 
 def _chosen_samples(trace: Trace) -> NDArray[np.intp]:
