@@ -238,6 +238,7 @@ def test_what_is_frozen_is_not_counted_as_solved(browser: Any, run_dir: Path, co
     parquet.write_table(parquet.read_table(path).slice(0, count), path)
     view = Opened(browser, write_page(run_dir))
     assert view.page.inner_text("#replans-summary").startswith(told)
+    assert view.page.inner_text("#replan-readout").endswith("ms · daqp · off by 0.05 tight tolerances")
     view.context.close()
 
 

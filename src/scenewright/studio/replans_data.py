@@ -43,7 +43,7 @@ def read_replans(run_dir: Path, missing: list[str]) -> Json | None:
             "wall_ms": _number(row.get("wall_s"), 6, 1000.0),
             "status": _word(row.get("status")) or "unknown",
             "backend": _word(row.get("backend")),
-            "tolerance": _word(row.get("tolerance")),
+            "tolerance": _number(row.get("tolerance"), 2),
             "reason": _word(row.get("reason")),
         }
         for row in table
@@ -75,6 +75,4 @@ def _number(value: object, digits: int, factor: float = 1.0) -> float | None:
 
 
 def _word(value: object) -> str:
-    if value is None or (isinstance(value, float) and math.isnan(value)):
-        return ""
-    return f"{value:g}" if isinstance(value, float) else str(value)
+    return "" if value is None or (isinstance(value, float) and math.isnan(value)) else str(value)

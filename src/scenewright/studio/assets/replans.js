@@ -101,7 +101,7 @@ function readReplan(strip, index) {
   strip.bars?.forEach((bar, i) => bar.classList.toggle('lit', i === index));
   const row = strip.rows[index];
   const parts = [`t ${fixed(row.time, 2)} s`, spoken(row.status), row.wall_ms ? `${brief(row.wall_ms)} ms` : null, row.backend || null,
-    row.tolerance ? `tolerance ${row.tolerance}` : null, row.reason || null];
+    isNumber(row.tolerance) ? `off by ${fixed(row.tolerance, 2)} tight tolerances` : null, row.reason || null];
   byId('replan-readout').textContent = parts.filter(Boolean).join(' · ');
 }
 
