@@ -88,9 +88,8 @@ class SmtPlanner:
             record = Replan(time_s, "frozen", "", 0.0, self.plan.tolerance, "all pieces are over")
         else:
             status, reason = self._planned_again(self._past(time_s))
-            foreseen = self.plan.profiles[EGO] if status in ("sat", "relaxed") else None  # else there is no such plan
-            wall_s = time.perf_counter() - started
-            record = Replan(time_s, status, "z3", wall_s, self.plan.tolerance, reason, foreseen)
+            wall_s, plan = time.perf_counter() - started, self.plan.profiles if status in ("sat", "relaxed") else {}
+            record = Replan(time_s, status, "z3", wall_s, self.plan.tolerance, reason, plan.get(EGO))
         self.records.append(record)
         return record
 
