@@ -192,12 +192,3 @@ def test_where_rounding_would_have_it_roll_back_it_stands_instead() -> None:
     assert 0.5 < stops_s < 1.0
     assert profile.state(stops_s + 1e-6)[1] == pytest.approx(0.0, abs=1e-4)
     assert profile.state(2.9)[:2] == pytest.approx(profile.state(stops_s)[:2], abs=1e-4)
-
-
-@given(built=shots(stands=False), share=st.floats(0.01, 1.5))
-def test_it_passes_a_place_when_it_is_there(built: tuple[list[Leg], Start, np.ndarray], share: float) -> None:
-    shot = shoot(*built)
-    assume(shot.v.min() > 1.0)
-    assume(min(profile_of(shot, {}, ()).state(float(t))[1] for t in np.arange(0.0, shot.time[-1], 0.05)) > 1.0)
-    place_m = float(shot.s[0] + share * (shot.s[-1] - shot.s[0]))
-    assert shot.at(shot.passes(place_m), np.zeros(len(shot.z)))[0] == pytest.approx(place_m, abs=0.01)

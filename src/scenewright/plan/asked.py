@@ -25,7 +25,6 @@ from scenewright.program.structure import (
     Structure,
     actors_of,
     knots_of,
-    placed_at,
     speeds_told_at,
     stands_at_end,
 )
@@ -94,11 +93,6 @@ class Asked:
         self.least_s = least_differences(self.events, (each.formula for each in lowered))
         self.of_ego = {self.knot(EGO, name) for name in scene.program.ego.sketch.knots} - {self.events.start}
         self.adapts_until = adapts_until(scene.program, structure, self._after_ego())
-        self.comes_to = {  # of those beside others, who is to be somewhere once that is over: it is not put off
-            hero
-            for hero in self.beside
-            if hero in placed_at(scene.program, frozenset({(hero, self.adapts_until[hero])}))
-        }
         self.narrowings = tuple(self.lowering.narrowings)
         self.times = [number_of(time) for time in self.events.times]
         self._scale = np.array([*(TIGHT[unknown.kind] for unknown in self.events.unknowns), 0.0])

@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from itertools import chain, repeat
 from typing import NamedTuple
 
 import numpy as np
@@ -41,7 +40,7 @@ class Block(NamedTuple):
 
     values: Array
     slopes: Array
-    most: Array | float
+    most: Array
     columns: Columns | None
 
 
@@ -65,16 +64,16 @@ class Rows:
     @cached_property
     def most(self) -> Array:
         """From where on the cost of each row grows evenly."""
-        each = (b.most if isinstance(b.most, np.ndarray) else repeat(b.most, len(b.values)) for b in self.blocks)
-        return np.fromiter(chain.from_iterable(each), dtype=np.float64)
+        return np.concatenate([np.zeros(0), *(block.most for block in self.blocks)])
 
     def add(self, value: float, slope: Array, weight: float = 1.0, most: float = _ANY) -> None:
         """Add one row."""
-        self.blocks.append(Block(np.array([weight * value]), (weight * slope)[None], most, self.by))
+        self.add_all(np.array([value]), slope[None], weight, most)
 
     def add_all(self, values: Array, slopes: Array, weights: Array | float = 1.0, most: Array | float = _ANY) -> None:
         """Add a row for each value, with its slopes in a row."""
-        self.blocks.append(Block(weights * values, np.asarray(weights)[..., None] * slopes, most, self.by))
+        each = np.broadcast_to(most, values.shape)
+        self.blocks.append(Block(weights * values, np.asarray(weights)[..., None] * slopes, each, self.by))
 
     def beyond(self, values: Array, slopes: Array, weight: float) -> None:
         """Add what is unpleasant only where it is greater than zero."""
@@ -209,8 +208,7 @@ class HeroRows:
         if leg.first.unknown is None and leg.last.unknown is not None:
             self.bounds.add(self.now.time_s + SOONEST_S - last.value(z), -slope, firm)
         comes_to_stand = stands_next and leg.kind is PieceKind.DEC  # how long that takes is in how hard it brakes
-        counts = instants[1] != asked.until(self.hero.id) or self.hero.id in asked.comes_to
-        if counts and not comes_to_stand:
+        if instants[1] != asked.until(self.hero.id) and not comes_to_stand:
             usual_s = wanted.stands_s if stands else wanted.lasts_s
             self.costs.add(lasts - usual_s, slope, wanted.stands_weight if stands else wanted.lasts_weight)
 

@@ -20,8 +20,6 @@ from scenewright.program.types import PieceKind
 Array = NDArray[np.float64]
 Columns = NDArray[np.intp]
 
-_CREEPS_MPS = 0.1  # who is slower is taken to be so fast, to tell when it comes somewhere
-_ROUNDS = 4  # of Newton's steps for that
 _HARDLY_MPS = 0.05  # by how much less than standing is a matter of rounding
 
 
@@ -123,22 +121,6 @@ class Shot:
             0.5 * (np.diff(each, axis=0, prepend=each[:1]) + np.diff(each, axis=0, append=each[-1:])) for each in both
         )
         return np.maximum(lasts_s, 1e-6), d_lasts
-
-    def passes(self, place_m: float) -> float:
-        """Return when it comes to a place; behind its end it holds its speed."""
-        last = len(self.s) - 1
-        node = min(max(int(np.searchsorted(self.s, place_m, side="right")) - 1, 0), last)
-        begin, v, to_go = float(self.time[node]), float(self.v[node]), place_m - float(self.s[node])
-        if node == last:
-            return begin + to_go / max(v, _CREEPS_MPS)
-        lasts = max(float(self.time[node + 1]) - begin, 1e-6)
-        a, jerk = float(self.accel[node]), float(self.accel_after[node] - self.accel[node]) / lasts
-        since = max(to_go, 0.0) / max(float(self.s[node + 1] - self.s[node]), 1e-6) * lasts
-        for _ in range(_ROUNDS):
-            speed = max(v + (a + 0.5 * jerk * since) * since, _CREEPS_MPS)
-            since += (to_go - (v + (0.5 * a + jerk * since / 6.0) * since) * since) / speed
-            since = min(max(since, 0.0), lasts)
-        return begin + since
 
     def rate_at(self, time_s: float, before: bool) -> tuple[float, Array]:
         """Return the acceleration at an instant, that which begins there or that `before` it, with its derivatives."""

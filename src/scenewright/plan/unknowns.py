@@ -152,9 +152,16 @@ class Unknowns:
         if meeting.zones_m is not None and first.state(self.now.time_s)[0] >= meeting.zones_m[0][1]:
             meeting = replace(meeting, zones_m=None)
         if meeting.zones_m is not None and first.state(self._looks[-1])[0] >= meeting.zones_m[0][1]:
-            moment = self._new(self.now.time_s, self.now.time_s, _LATEST_S, _STEP_S)
+            moment = self._new(self._between_s(meeting), self.now.time_s, _LATEST_S, _STEP_S)
         if meeting.zones_m is not None or meeting.lane_m is not None:
             yield meeting, moment
+
+    def _between_s(self, meeting: Meeting) -> float:
+        """Guess a moment midway between the first's leaving a stretch and the second's entering it."""
+        assert meeting.zones_m is not None
+        clear_m, first, second = self.asked.wanted.clear_m, self._motion(meeting.first), self._motion(meeting.second)
+        left_s = min(passes_s(first, meeting.zones_m[0][1] + clear_m), float(self._looks[-1]))
+        return 0.5 * (left_s + min(passes_s(second, meeting.zones_m[1][0] - clear_m), left_s + _BETWEEN_S))
 
     def _motion(self, hero: int) -> Profile:
         """Return what a hero drives or is first planned from."""
@@ -281,26 +288,7 @@ class Unknowns:
                 if moment.unknown is not None:
                     z[moment.unknown] = min(z[moment.unknown], latest - LEAST_S - moment.constant)
                 latest = min(latest, moment.value(z))
-        for meeting, between in self._meetings:
-            if between is not None:
-                z[between] = np.clip(self._between_s(meeting, z), self.low[between], self.high[between])
         return z
-
-    def _between_s(self, meeting: Meeting, z: Array) -> float:
-        """Return a moment midway between the first's leaving a stretch and the second's entering it."""
-        assert meeting.zones_m is not None
-        clear_m = self.asked.wanted.clear_m
-        left_s = min(self._passes(meeting.first, meeting.zones_m[0][1] + clear_m, z), float(self._looks[-1]))
-        enters_s = self._passes(meeting.second, meeting.zones_m[1][0] - clear_m, z)
-        return 0.5 * (left_s + min(enters_s, left_s + _BETWEEN_S))
-
-    def _passes(self, hero: int, place_m: float, z: Array) -> float:
-        """Return when a hero comes to a place."""
-        shot, drive = self.shots(z).get(hero), self.now.heroes.get(hero)
-        if shot is not None and (drive is None or place_m >= shot.s[0]):
-            return shot.passes(place_m)
-        assert drive is not None
-        return min(passes_s(drive.motion, place_m), _LATEST_S)
 
     def shots(self, z: Array) -> dict[int, Shot]:
         """Return the motions of all that are still planned; slopes are by their own unknowns."""
