@@ -7,6 +7,7 @@ somebody does not do are given to the narrative.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass, field
 from functools import partial
 
 from scenewright.errors import TranslationError
@@ -24,115 +25,167 @@ def acts_of(story: Narrative, items: list[Clause], happens: bool) -> list[Clause
     What only says why (yields, does not give way) is kept to be checked; a deed and the event at its end are one,
     and so is one that is told twice: "it brakes at 3 m/s^2 and stops at the stop line".
     """
-    found: list[Clause] = []
     for item in items:
         if "for" in item.times and item.subject not in (None, EGO):  # "stands for 4 s"
             lasting(item)
         if (item.subject, item.deed) == (EGO, st.Verb.DRIVE) and item.says_more_than("deed") and not happens:
             item.deed = None  # nobody tells it to: "the ego proceeds west"
-    acts, ways = any(each.deed is not None for each in items), set[int | None]()
+    acts = _Acts(story, items, happens, any(each.deed is not None for each in items))
     for item in items:
-        story.courtesies += [(item.subject, each, item.quote) for each in item.flags & COURTESIES]
-        refrains = item.flags & REFRAINS
+        acts.take(item)
+    return acts.found
+
+
+@dataclass(slots=True)
+class _Acts:
+    """The clauses of a sentence while it is found out what is done in them."""
+
+    story: Narrative
+    items: list[Clause]
+    happens: bool
+    acts: bool  # one of them tells a deed
+    found: list[Clause] = field(default_factory=list)
+    ways: set[int | None] = field(default_factory=set)  # whose way is told besides a deed
+
+    def take(self, item: Clause) -> None:
+        """Take a clause: what somebody does not do, what is done, and its way."""
+        story, refrains = self.story, item.flags & REFRAINS
         if item.subject is not None and item.flags & (COURTESIES | REFRAINS):
             story.subject = item.subject
-        always = not happens and all(doing.actor != item.subject for doing in story.doings)
+        story.courtesies += [(item.subject, each, item.quote) for each in item.flags & COURTESIES]
+        always = not self.happens and all(doing.actor != item.subject for doing in story.doings)
         story.refrains += [(item.subject, each, item.quote, always) for each in sorted(refrains)]
         item.flags -= COURTESIES | REFRAINS
-        is_hero = happens and item.deed is None and item.subject not in (None, EGO)
-        goes_on = item.times and any(doing.actor == item.subject for doing in story.doings)
-        meant = "wanted" in item.notes or ("relative" in item.notes and acts)
-        turns = item.facts.get("turn", "straight") != "straight"
-        before = found[-1] if found and found[-1].subject == item.subject else Clause(item.quote)
-        is_bare = bool(item.facts) and not item.says_more_than("facts")
-        is_way, is_meant = is_bare and not meant, {"wanted", "relative"} & item.notes == {"wanted"}  # "is turning"
-        own, then = any(each.deed and each.subject == item.subject for each in found), "then" in item.notes
-        leaves = is_hero and is_way and "origin" in item.notes  # "when ..., the van leaves the driveway"
-        inside = "area" in item.notes and (happens or own or item.deed != st.Verb.STAND)  # "stops in the driveway"
-        both = "kept" in item.flags or {"kept", "first"} <= item.flags | before.flags  # "goes first, keeping its speed"
-        both &= item.deed is None and before.deed in ("go first", st.Verb.DRIVE)
-        late = (is_way and not happens and (own or then)) or (then and item.subject in ways)
-        late |= happens and turns and item.deed is not None and not meant  # "turns right accelerating to 8 m/s"
-        if leaves or inside or both or late or (is_bare and is_meant and happens and not acts):
-            story.refuse("it is not clear when or where this is done", item.quote, "say it as a deed of its own")
-        bare = "turn" not in item.facts and "drives" not in item.notes  # "the car, westbound, brakes"
-        aside = acts and not (own or then) and (bare or "ing" in [each[-3:] for each in item.quote.text.split()])
-        if is_hero and "event" in item.notes and not (turns or item.says_more_than("facts", "measures")):
-            story.tell(item)  # "turns into the driveway"
-        drives = "drives" in item.notes and not (acts or meant or item.says_more_than())  # "Then it drives"
-        if is_hero and (drives or (is_way and not (turns or aside))):
-            story.tell(item)
-            item.deed = st.Verb.DRIVE  # "then it goes straight on"
-        elif is_hero and turns and not meant:
-            story.tell_way(item.subject or EGO, item.facts, turns_then=True)
-            item.facts, item.deed = {}, "turn"
-        elif is_hero and not acts and (ends := _comes_to(item)):
-            item.flags, item.deed = item.flags | ends, st.Verb.DRIVE
-        elif is_hero and "first" in item.flags and not item.says_more_than("flags"):
-            item.flags, item.deed = item.flags - {"first"}, "go first"
-        elif "kept" in item.flags and (is_hero or goes_on) and not item.says_more_than("flags", "times", "measures"):
-            item.deed = st.Verb.DRIVE  # "when ..., it keeps its speed"; "It keeps this speed for 5 s"
-        elif is_hero and refrains and all(other is item or not other.says_more_than() for other in items):
-            item.deed = st.Verb.DRIVE  # "when ..., it does not brake"
-        elif is_hero and item.phase == "begins" and not item.says_more_than("phase"):
-            item.phase, item.deed, item.notes = None, st.Verb.DRIVE, item.notes | {"sets off"}  # "it starts driving"
-        elif item.phase == "begins" and item.deed is None and item.measures:
-            item.phase = None
-            if is_hero and item.measures[0].quantity is st.Quantity.SPEED:  # "starts driving at 8 m/s"
-                item.deed, item.flags = st.Verb.DRIVE, item.flags | {"to"}
-                item.notes |= set() if item.facts else {"sets off"}
-                item.facts = {} if item.facts.get("turn") == "straight" else item.facts
-            else:  # "starts 40 m before the stop line"
-                if any(each.deed is not None and each.subject == item.subject for each in items):
-                    story.refuse("it is not clear what starts there", item.quote, "say it in front of what is done")
-                item.flags.add("start")
-        elif is_hero and not acts and "event" in item.notes and not item.is_event:
-            story.refuse("it is not clear when this is so", item.quote)  # "passes it 20 m ahead of the ego"
+        is_way = _is_way(item) and not self._is_meant(item)
+        self._refuse_unclear(item, is_way)
+        self._find_deed(item, is_way, bool(refrains))
         if item.subject == EGO and "first" in item.flags:
             item.flags -= {"first"}
             story.afterwards.append(partial(story.ego_first, item.quote))  # when all that is done is told
-        if acts:
-            ways |= {item.subject} if is_way and item.facts else set()
+        if self.acts:
+            self.ways |= {item.subject} if is_way and item.facts else set()
             story.tell(item)
+        self._join(item)
+
+    def _is_of_hero(self, item: Clause) -> bool:
+        """Whether what it says may be a deed: it happens, and not to the ego."""
+        return self.happens and item.deed is None and item.subject not in (None, EGO)
+
+    def _is_meant(self, item: Clause) -> bool:
+        return "wanted" in item.notes or ("relative" in item.notes and self.acts)
+
+    def _before(self, item: Clause) -> Clause:
+        """Return the clause before, where it is of the same one."""
+        return self.found[-1] if self.found and self.found[-1].subject == item.subject else Clause(item.quote)
+
+    def _refuse_unclear(self, item: Clause, is_way: bool) -> None:
+        """Refuse a way or a place beside what is done of which nothing says when that is."""
+        before, then = self._before(item), "then" in item.notes
+        own = any(each.deed and each.subject == item.subject for each in self.found)
+        leaves = self._is_of_hero(item) and is_way and "origin" in item.notes  # "when ..., the van leaves the driveway"
+        inside = "area" in item.notes and (self.happens or own or item.deed != st.Verb.STAND)  # "stops in the driveway"
+        both = "kept" in item.flags or {"kept", "first"} <= item.flags | before.flags  # "goes first, keeping its speed"
+        both &= item.deed is None and before.deed in ("go first", st.Verb.DRIVE)
+        late = (is_way and not self.happens and (own or then)) or (then and item.subject in self.ways)
+        turns = item.turns and item.deed is not None and not self._is_meant(item)  # "turns right accelerating to 8 m/s"
+        is_turning = _is_way(item) and {"wanted", "relative"} & item.notes == {"wanted"} and not self.acts
+        if leaves or inside or both or late or (self.happens and (turns or is_turning)):
+            self.story.refuse("it is not clear when or where this is done", item.quote, "say it as a deed of its own")
+
+    def _find_deed(self, item: Clause, is_way: bool, refrains: bool) -> None:
+        """Make a deed of a turn, a way, a speed, an event or an order that happens."""
+        story, is_of_hero, meant, turns = self.story, self._is_of_hero(item), self._is_meant(item), item.turns
+        bare = "turn" not in item.facts and "drives" not in item.notes  # "the car, westbound, brakes"
+        own = any(each.deed and each.subject == item.subject for each in self.found)
+        aside = self.acts and not (own or "then" in item.notes)
+        aside &= bare or "ing" in [each[-3:] for each in item.quote.text.split()]
+        if is_of_hero and "event" in item.notes and not (turns or item.says_more_than("facts", "measures")):
+            story.tell(item)  # "turns into the driveway"
+        drives = "drives" in item.notes and not (self.acts or meant or item.says_more_than())  # "Then it drives"
+        goes_on = item.times and any(doing.actor == item.subject for doing in story.doings)
+        if is_of_hero and (drives or (is_way and not (turns or aside))):
+            story.tell(item)
+            item.deed = st.Verb.DRIVE  # "then it goes straight on"
+        elif is_of_hero and turns and not meant:
+            story.tell_way(item.subject or EGO, item.facts, turns_then=True)
+            item.facts, item.deed = {}, "turn"
+        elif is_of_hero and not self.acts and (ends := _comes_to(item)):
+            item.flags, item.deed = item.flags | ends, st.Verb.DRIVE
+        elif is_of_hero and "first" in item.flags and not item.says_more_than("flags"):
+            item.flags, item.deed = item.flags - {"first"}, "go first"
+        elif "kept" in item.flags and (is_of_hero or goes_on) and not item.says_more_than("flags", "times", "measures"):
+            item.deed = st.Verb.DRIVE  # "when ..., it keeps its speed"; "It keeps this speed for 5 s"
+        elif is_of_hero and refrains and all(other is item or not other.says_more_than() for other in self.items):
+            item.deed = st.Verb.DRIVE  # "when ..., it does not brake"
+        elif is_of_hero and item.phase == "begins" and not item.says_more_than("phase"):
+            item.phase, item.deed, item.notes = None, st.Verb.DRIVE, item.notes | {"sets off"}  # "it starts driving"
+        elif item.phase == "begins" and item.deed is None and item.measures:
+            self._start(item, is_of_hero)
+        elif is_of_hero and not self.acts and "event" in item.notes and not item.is_event:
+            story.refuse("it is not clear when this is so", item.quote)  # "passes it 20 m ahead of the ego"
+
+    def _start(self, item: Clause, is_of_hero: bool) -> None:
+        """Take what begins with an amount: somebody drives so fast from then, or is there at the start."""
+        item.phase = None
+        if is_of_hero and item.measures[0].quantity is st.Quantity.SPEED:  # "starts driving at 8 m/s"
+            item.deed, item.flags = st.Verb.DRIVE, item.flags | {"to"}
+            item.notes |= set() if item.facts else {"sets off"}
+            item.facts = {} if item.facts.get("turn") == "straight" else item.facts
+        elif any(each.deed is not None and each.subject == item.subject for each in self.items):
+            self.story.refuse("it is not clear what starts there", item.quote, "say it in front of what is done")
+        else:  # "starts 40 m before the stop line"
+            item.flags.add("start")
+
+    def _join(self, item: Clause) -> None:
+        """Keep a clause, as one with that before it where both are of one deed."""
+        before = self._before(item)
         beside = item.quote.text.split()[0].endswith("ing") and "then" not in item.notes
         if beside and before.deed and (item.deed in CHANGES or (item.deed and before.deed == "turn")):
             if before.deed != st.Verb.DRIVE or before.says_more_than("deed"):  # "turns left, accelerating at 2 m/s^2"
                 told = "it is not clear whether this is done then or meanwhile"
-                story.refuse(told, item.quote, "say 'then', or 'while'")
-            item.notes |= found.pop().notes & {"sets off"}  # "pulls out, accelerating to 8 m/s"
+                self.story.refuse(told, item.quote, "say 'then', or 'while'")
+            item.notes |= self.found.pop().notes & {"sets off"}  # "pulls out, accelerating to 8 m/s"
             before = Clause(item.quote)
         if item.deed == "stop" and "comes" in before.notes and not item.measures:  # "drives to the line and stops"
             if before.says_more_than("deed", "measures"):
-                story.refuse("it is not clear where it stops", item.quote, "say it: 'stops at ...'")
-            item.measures, before = found.pop().measures, Clause(item.quote)
-        rest, brakes = st.standstill(item.subject or EGO), before.deed == st.Verb.BRAKE
-        if brakes and item.deed is None and rest in item.measures:  # "brakes and stands 5 m before"
-            item.deed, item.measures = "stop", [each for each in item.measures if each != rest]
-        twice = (before.deed, item.deed) == (st.Verb.BRAKE, "stop")
+                self.story.refuse("it is not clear where it stops", item.quote, "say it: 'stops at ...'")
+            item.measures, before = self.found.pop().measures, Clause(item.quote)
+        if brakes := before.deed == st.Verb.BRAKE:  # "brakes and stands 5 m before"
+            let_stand(item, "stop")
         stands = before.deed in ("stop", st.Verb.STAND)  # who stands passes nothing: that comes after it
+        more = before.says_more_than("deed", "phase", "rates", "measures", "times", "begins")
         if before.deed is not None and not stands and item.is_event and not before.measures:
             before.measures, before.notes = item.measures, before.notes | item.notes
-        elif twice and not before.says_more_than("deed", "phase", "rates", "measures", "times", "begins"):
-            found[-1], item.rates, item.begins = item, [*before.rates, *item.rates], [*before.begins, *item.begins]
+        elif brakes and item.deed == "stop" and not more:  # it is told twice
+            self.found[-1], item.rates, item.begins = item, [*before.rates, *item.rates], [*before.begins, *item.begins]
             item.measures = [*before.measures, *item.measures]
             item.times |= {name: [*several, *item.times.get(name, ())] for name, several in before.times.items()}
             item.agree()
         elif item.says_more_than():
-            if (is_hero or stands) and item.is_event:
-                item.deed, starts = st.Verb.DRIVE, [each.place for each in item.measures] == [st.Place("turn_start")]
-                turns = "turns" in item.quote.text.lower().split()
-                if starts or turns:  # "then it turns"
-                    item.measures, item.deed = [], "turn"
-                if starts and not turns:  # what is told of when is of that, not of when it has turned
-                    item.phase, item.notes = "begins", item.notes - {"event"}
-            found.append(item)
+            if (stands or self._is_of_hero(item)) and item.is_event:
+                _pass(item)
+            self.found.append(item)
             comes = [each for each in item.measures if st.is_event(each)]
             if "to" in item.flags and "event" in item.notes and comes and item.deed in CHANGES:
                 # "It speeds up to 14 m/s so that it passes the stop line": not just there.
                 item.measures = [each for each in item.measures if each not in comes]
                 item.notes -= {"event"}
-                found.append(Clause(item.quote, item.subject, st.Verb.DRIVE, measures=comes, notes={"event"}))
-    return found
+                self.found.append(Clause(item.quote, item.subject, st.Verb.DRIVE, measures=comes, notes={"event"}))
+
+
+def _pass(clause: Clause) -> None:
+    """Let an event be a deed: somebody drives to a place, or turns."""
+    starts = [each.place for each in clause.measures] == [st.Place("turn_start")]
+    turns = "turns" in clause.quote.text.lower().split()
+    clause.deed = st.Verb.DRIVE
+    if starts or turns:  # "then it turns"
+        clause.measures, clause.deed = [], "turn"
+    if starts and not turns:  # what is told of when is of that, not of when it has turned
+        clause.phase, clause.notes = "begins", clause.notes - {"event"}
+
+
+def _is_way(clause: Clause) -> bool:
+    return bool(clause.facts) and not clause.says_more_than("facts")
 
 
 def _comes_to(clause: Clause) -> set[str]:
@@ -145,12 +198,17 @@ def _comes_to(clause: Clause) -> set[str]:
     return set() if told or not (passes or past) else {"to there", *(["to"] if speeds else [])}
 
 
-def lasting(clause: Clause) -> None:
-    """Let what lasts until something be a deed: "it stands until ...", "it drives at 8 m/s until ..."."""
+def let_stand(clause: Clause, deed: str) -> None:
+    """Let that somebody stands be a deed, where it is said and no other is."""
     stands = st.standstill(clause.subject or EGO)
     if clause.deed is None and stands in clause.measures:
-        clause.deed, clause.measures = st.Verb.STAND, [each for each in clause.measures if each != stands]
-    elif clause.deed is None and ("drives" in clause.notes or "kept" in clause.flags):
+        clause.deed, clause.measures = deed, [each for each in clause.measures if each != stands]
+
+
+def lasting(clause: Clause) -> None:
+    """Let what lasts until something be a deed: "it stands until ...", "it drives at 8 m/s until ..."."""
+    let_stand(clause, st.Verb.STAND)
+    if clause.deed is None and ("drives" in clause.notes or "kept" in clause.flags):
         clause.deed = st.Verb.DRIVE
 
 

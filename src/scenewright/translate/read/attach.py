@@ -41,14 +41,6 @@ def _attach(taken: Taken) -> None:
     """Give amounts their targets, make measures of what stands alone, and say of whom all of it is."""
     clause, last = taken.clause, taken.chunks[-1]
     _find_subject(taken)
-    for target in taken.targets:
-        if target.place is not None and target.chunk.kind == "pronoun":
-            target.place = taken.people.seen_by(target.place, clause.subject)
-            if target.place.of not in (None, clause.subject) and target.side == "at":
-                raise taken.left_over(target.chunk)  # nobody passes a stop line of another's way
-        elif target.place is None and target.other is None:
-            target.other = taken.people.whom(target.chunk.quote, clause.subject)
-            taken.people.meant.append(target.other)
     bare = "shall" not in clause.notes and not clause.says_more_than("deed")
     if (clause.deed, clause.subject) == (st.Verb.STAND, EGO) and bare:
         clause.deed, taken.states = None, taken.states | {"stands"}  # nobody tells the ego to: "the ego waits"
@@ -68,33 +60,44 @@ def _attach(taken: Taken) -> None:
     for target in taken.targets:
         if not target.used:
             _placed(taken, target.at, partial(_stand_alone, taken, target))
-    places = [each for each in clause.measures if each.quantity is st.Quantity.PLACE]
-    passes_nothing = "pass" in taken.states and all(each.amount is not None for each in places)
-    fast = "speed" in taken.quantities or any(each.quantity is st.Quantity.SPEED for each in clause.measures)
-    # "It continues at this speed": who drives at it without such a deed may drive as another one does.
-    fast |= clause.deed == st.Verb.DRIVE and any(each.kind == "kept" and "speed" in each.text for each in taken.chunks)
-    if "kept" in clause.flags and not fast:  # "keeps a gap of 20 m"
-        raise taken.left_over(last)
-    told = [chunk.dimension for _, _, chunk in taken.amounts] + ["speed"] * ("kept" in clause.flags)
-    if passes_nothing or ("reach" in taken.states and not places) or taken.quantities.keys() - {*told}:
-        raise taken.left_over(last)
+    _refuse_unused(taken)
     if "goes" in taken.states and clause.deed is None and not (clause.facts or clause.measures or clause.flags):
         clause.deed = st.Verb.DRIVE
-    if clause.subject is None and (clause.measures or clause.rates or clause.begins):
-        raise taken.left_over(taken.chunks[0])
-    for some in (clause.measures, clause.rates, clause.begins):
-        some[:] = [_of(each, clause.subject, taken.people) for each in some]
-    if any(each.of == clause.subject for each in clause.relations):  # "the ego follows a bus in the same lane"
-        other = taken.people.whom(clause.quote, clause.subject)
-        clause.relations = [replace(each, of=other) for each in clause.relations]
-    if any(each.place is not None and each.place.partner == each.actor for each in clause.measures):
-        raise taken.left_over(last)  # "it" of a conflict point with somebody, said of that one
+    _say_of_whom(taken)
     clause.agree()
     begin, end = ([each.amount.si for each in said if each.quantity is st.Quantity.SPEED and each.amount is not None]
                   for said in (clause.begins, clause.measures))  # fmt: skip
     sense = {st.Verb.BRAKE: -1, "stop": -1, st.Verb.SPEED_UP: 1}.get(clause.deed or "", 0)
     if begin and end and begin[0] is not None and end[0] is not None and sense * (end[0] - begin[0]) < 0:
         raise taken.left_over(last)  # nobody brakes from 5 m/s to 10 m/s
+
+
+def _refuse_unused(taken: Taken) -> None:
+    """Refuse a passing of nothing, a quantity without an amount, and a gap that is kept: that is no speed."""
+    clause, last = taken.clause, taken.chunks[-1]
+    places = [each for each in clause.measures if each.quantity is st.Quantity.PLACE]
+    passes_nothing = "pass" in taken.states and all(each.amount is not None for each in places)
+    fast = "speed" in taken.quantities or any(each.quantity is st.Quantity.SPEED for each in clause.measures)
+    # "It continues at this speed": who drives at it without such a deed may drive as another one does.
+    fast |= clause.deed == st.Verb.DRIVE and any(each.kind == "kept" and "speed" in each.text for each in taken.chunks)
+    told = [chunk.dimension for _, _, chunk in taken.amounts] + ["speed"] * ("kept" in clause.flags)
+    unused = ("reach" in taken.states and not places) or taken.quantities.keys() - {*told}
+    if passes_nothing or unused or ("kept" in clause.flags and not fast):  # "keeps a gap of 20 m"
+        raise taken.left_over(last)
+
+
+def _say_of_whom(taken: Taken) -> None:
+    """Say of the subject what is told of `IT`."""
+    clause, people = taken.clause, taken.people
+    if clause.subject is None and (clause.measures or clause.rates or clause.begins):
+        raise taken.left_over(taken.chunks[0])
+    for some in (clause.measures, clause.rates, clause.begins):
+        some[:] = [_of(each, clause.subject, people) for each in some]
+    if any(each.of == clause.subject for each in clause.relations):  # "the ego follows a bus in the same lane"
+        other = people.whom(clause.quote, clause.subject)
+        clause.relations = [replace(each, of=other) for each in clause.relations]
+    if any(each.place is not None and each.place.partner == each.actor for each in clause.measures):
+        raise taken.left_over(taken.chunks[-1])  # "it" of a conflict point with somebody, said of that one
 
 
 def _in_pairs(taken: Taken) -> dict[int, Target]:
@@ -121,8 +124,8 @@ def _placed(taken: Taken, at: int, make: Callable[[], None]) -> None:
 
 
 def _find_subject(taken: Taken) -> None:
-    """Say of whom a clause is that names nobody in front."""
-    clause = taken.clause
+    """Say of whom a clause is that names nobody in front, and which place or who "it" is."""
+    clause, people = taken.clause, taken.people
     ahead = next((each for each in taken.targets if each.side == "ahead" and each.other is not None), None)
     place = next((each for each in taken.targets if each.place is not None and each.side == "at"), None)
     # "There is a driveway 100 m in front of the ego."
@@ -131,19 +134,27 @@ def _find_subject(taken: Taken) -> None:
     if taken.pair is None and {*st.BETWEEN} & {*taken.quantities.values()}:
         others = [each.other for each in taken.targets if each.side in ("to", "with") and each.other is not None]
         if clause.subject is not None and not taken.targets:  # "the ego's headway is 2 s"
-            other = taken.people.whom(clause.quote, clause.subject)
+            other = people.whom(clause.quote, clause.subject)
             taken.targets.append(Target(0, "to", taken.chunks[-1], other=other))
         elif clause.subject is None and not taken.targets:
-            taken.pair = taken.people.pair(taken.chunks[0])  # "when the gap is 20 m"
+            taken.pair = people.pair(taken.chunks[0])  # "when the gap is 20 m"
         elif clause.subject is None and len(others) == len(taken.targets) == 1:  # "the headway to the hero is 2 s"
-            taken.pair, taken.targets = (taken.people.whom(clause.quote, others[0]), others[0]), []
+            taken.pair, taken.targets = (people.whom(clause.quote, others[0]), others[0]), []
     if taken.pair is not None:
         if clause.subject not in (None, *taken.pair):
             raise taken.left_over(taken.chunks[taken.subject_at])  # "the van has a gap between the ego and the hero"
-        rear = taken.people.rear(*taken.pair, clause.quote)
+        rear = people.rear(*taken.pair, clause.quote)
         clause.subject, front = rear, next((each for each in taken.pair if each != rear), rear)
         taken.targets.append(Target(0, "behind", taken.chunks[-1], other=front))
     clause.subject = taken.subject if clause.subject is None else clause.subject
+    for target in taken.targets:
+        if target.place is not None and target.chunk.kind == "pronoun":
+            target.place = people.seen_by(target.place, clause.subject)
+            if target.place.of not in (None, clause.subject) and target.side == "at":
+                raise taken.left_over(target.chunk)  # nobody passes a stop line of another's way
+        elif target.place is None and target.other is None:
+            target.other = people.whom(target.chunk.quote, clause.subject)
+            people.meant.append(target.other)
 
 
 def _of(measure: st.Measure, subject: int | None, people: Cast) -> st.Measure:
@@ -165,7 +176,7 @@ def _stand_alone(taken: Taken, target: Target) -> None:
     is_which = target.at > 0 and taken.chunks[target.at - 1].kind in PEOPLE  # "a car ahead of it brakes"
     acts = clause.deed or "event" in clause.notes
     if target.other is not None and target.side in ("ahead", "behind") and (is_which or not acts):
-        if clause.facts.get("turn", "straight") != "straight" and not is_which:
+        if clause.turns and not is_which:
             fix = "say who passes first, or that it 'turns left across the path of the ego'"
             raise UnknownWordsError("it is not clear whether it goes first", found=clause.quote.text, fix=fix)
         clause.relations.append(st.Relation(target.side, target.other, target.chunk.quote))
@@ -199,56 +210,70 @@ def line_up(clause: Clause) -> None:
 
 def _give(taken: Taken, at: int, op: st.Operator, chunk: Chunk, paired: Target | None) -> None:
     """Make a measure of an amount, with its own target, the nearest free one after it, else before it."""
-    amount, clause = chunk.amount, taken.clause
-    assert amount is not None
-    named = taken.quantities.get(amount.dimension)
-    if amount.dimension == "speed":
-        taken.measure(chunk, st.Measure(IT, st.Quantity.SPEED, op, amount))
-        return
-    if amount.dimension == "acceleration":
-        if clause.deed is None and named is None:
-            raise taken.left_over(chunk)  # "brake to a stop, the car at 3 m/s^2"
-        slowing = named == "deceleration" or clause.deed in (st.Verb.BRAKE, "stop")
-        if (clause.deed, named) in _CONTRARY:
-            raise taken.left_over(chunk)  # nobody brakes with an acceleration
-        if slowing and amount.value is not None and amount.value < 0:  # "brakes at -3 m/s^2": the sign says it again
-            amount = replace(amount, value=-amount.value)
-        if clause.deed == st.Verb.SPEED_UP and amount.value is not None and amount.value <= 0:
+    clause = taken.clause
+    if chunk.dimension == "speed":
+        taken.measure(chunk, st.Measure(IT, st.Quantity.SPEED, op, chunk.amount))
+    elif chunk.dimension == "acceleration":
+        _give_rate(taken, op, chunk)
+    else:
+        free = [target for target in taken.targets if not target.used]
+        target = paired or next((each for each in free if each.at > at), free[-1] if free else None)
+        if at in taken.ranges:
+            target = next((each for each in taken.targets if each.at > at), None) or taken.last
+        if target is None and chunk.dimension == "length" and clause.deed is not None:
+            fix = "say where it ends, as in '... 5 m before the conflict point'"
+            raise UnknownWordsError("how far a deed goes cannot be said yet", found=clause.quote.text, fix=fix)
+        if target is None:
             raise taken.left_over(chunk)
-        taken.measure(chunk, st.Measure(IT, st.Quantity.RATE, op, amount, opposite=slowing))
-        if clause.deed is not None:
-            clause.rates.append(clause.measures.pop())
-        return
-    free = [target for target in taken.targets if not target.used]
-    target = paired or next((each for each in free if each.at > at), free[-1] if free else None)
-    if at in taken.ranges:
-        target = next((each for each in taken.targets if each.at > at), None) or taken.last
-    if target is None and amount.dimension == "length" and clause.deed is not None:
-        fix = "say where it ends, as in '... 5 m before the conflict point'"
-        raise UnknownWordsError("how far a deed goes cannot be said yet", found=clause.quote.text, fix=fix)
-    if target is None:
+        target.used, taken.last = True, target
+        if target.place is not None:
+            _count_to_place(taken, at, op, chunk, target, target.place)
+        else:
+            _count_to_other(taken, op, chunk, target)
+
+
+def _give_rate(taken: Taken, op: st.Operator, chunk: Chunk) -> None:
+    """Make a measure of an acceleration; that of a deed is of the deed throughout."""
+    clause, amount, named = taken.clause, chunk.amount, taken.quantities.get("acceleration")
+    assert amount is not None
+    if (clause.deed is None and named is None) or (clause.deed, named) in _CONTRARY:
+        raise taken.left_over(chunk)  # "brake to a stop, the car at 3 m/s^2", "brakes with an acceleration of 3 m/s^2"
+    slowing = named == "deceleration" or clause.deed in (st.Verb.BRAKE, "stop")
+    if slowing and amount.value is not None and amount.value < 0:  # "brakes at -3 m/s^2": the sign says it again
+        amount = replace(amount, value=-amount.value)
+    if clause.deed == st.Verb.SPEED_UP and amount.value is not None and amount.value <= 0:
         raise taken.left_over(chunk)
-    target.used, taken.last = True, target
-    is_time, side, place = amount.dimension == "time", target.side, target.place
+    taken.measure(chunk, st.Measure(IT, st.Quantity.RATE, op, amount, opposite=slowing))
+    if clause.deed is not None:
+        clause.rates.append(clause.measures.pop())
+
+
+def _count_to_place(taken: Taken, at: int, op: st.Operator, chunk: Chunk, target: Target, place: st.Place) -> None:
+    """Make a measure of how far it is to a place, or how long until it is there."""
+    named, side, is_time = taken.quantities.get(chunk.dimension), target.side, chunk.dimension == "time"
     past = side in ("past", "after") and not is_time
-    if place is not None:
-        quantity = st.Quantity.ARRIVAL if is_time else st.Quantity.PLACE
-        fits = past or side in _TO_PLACE or (side == "at" and named == "time to arrival")
-        if not fits or named not in (None, "time to arrival", "gap"):
-            raise taken.left_over(target.chunk)
-        measure = st.Measure(IT, quantity, op, amount, place, opposite=past)
-        taken.measure(chunk, measure)
-        near, beyond = st.not_beyond(measure), taken.beyond.pop(at, None)
-        if beyond is not None and (near is None or (beyond.value == "before") is not past):
-            raise taken.left_over(beyond)
-        if near is not None and beyond is None and at not in taken.ranges:
-            taken.measure(target.chunk, near)
-        return
+    fits = past or side in _TO_PLACE or (side == "at" and named == "time to arrival")
+    if not fits or named not in (None, "time to arrival", "gap"):
+        raise taken.left_over(target.chunk)
+    quantity = st.Quantity.ARRIVAL if is_time else st.Quantity.PLACE
+    measure = st.Measure(IT, quantity, op, chunk.amount, place, opposite=past)
+    taken.measure(chunk, measure)
+    near, beyond = st.not_beyond(measure), taken.beyond.pop(at, None)
+    if beyond is not None and (near is None or (beyond.value == "before") is not past):
+        raise taken.left_over(beyond)
+    if near is not None and beyond is None and at not in taken.ranges:
+        taken.measure(target.chunk, near)
+
+
+def _count_to_other(taken: Taken, op: st.Operator, chunk: Chunk, target: Target) -> None:
+    """Make a measure of the gap, the headway or the time to collision between two."""
+    clause, named, side = taken.clause, taken.quantities.get(chunk.dimension), target.side
+    is_time = chunk.dimension == "time"
     asked = named or ("headway" if is_time else "gap")
-    if named is None and is_time and "event" in clause.notes:
-        raise taken.left_over(target.chunk)  # "passes it 1 s ahead of the ego": before it, or at a headway?
+    # "Passes it 1 s ahead of the ego": before it, or at a headway?
+    either_way = named is None and is_time and "event" in clause.notes
     fits = side in ("behind", "ahead") or (named is not None and side in ("to", "with"))
-    if target.other is None or not fits or asked not in st.BETWEEN:
+    if either_way or target.other is None or not fits or asked not in st.BETWEEN:
         raise taken.left_over(target.chunk)
     behind, both = side == "ahead", (clause.subject or EGO, target.other)  # it is the other one that is behind
     # Who has one is behind, unless it was said to lead; of a gap, and of "brakes at a headway of 2 s", either may be.
@@ -256,4 +281,4 @@ def _give(taken: Taken, at: int, op: st.Operator, chunk: Chunk, paired: Target |
     if side in ("to", "with") and (either or target.other in taken.people.told_rears(*both)):
         behind = taken.people.rear(*both, chunk.quote) == target.other
     one, other = (target.other, IT) if behind else (IT, target.other)
-    taken.measure(chunk, st.Measure(one, st.Quantity(asked), op, amount, other=other))
+    taken.measure(chunk, st.Measure(one, st.Quantity(asked), op, chunk.amount, other=other))

@@ -79,6 +79,11 @@ class Clause:
         return [*self.measures, *self.joined]
 
     @property
+    def turns(self) -> bool:
+        """Whether its way is told to turn."""
+        return self.facts.get("turn", "straight") != "straight"
+
+    @property
     def is_event(self) -> bool:
         """Whether it says that its subject comes to a place, and nothing else."""
         told = self.says_more_than("measures") or not self.measures or "event" not in self.notes
@@ -139,7 +144,7 @@ class Taken:
     beyond: dict[int, Chunk] = field(default_factory=dict)  # by amount: that it may be on the other side, too
     targets: list[Target] = field(default_factory=list)
     states: set[str] = field(default_factory=set)
-    quantities: dict[Dimension, str] = field(default_factory=dict)  # that are named, by what they are amounts of
+    quantities: dict[str, str] = field(default_factory=dict)  # that are named, by what they are amounts of
     subject_at: int = 0
     deed_at: int = -1
     stands_at: int = -1  # where it is said to what it does it: to a standstill, to a speed, to a place
@@ -254,10 +259,9 @@ class Taken:
         match chunk.kind:
             case "pronoun":
                 return chunk.value == "its"
-            case "bound" if following == "bound":  # "drops to less than 12 m", not "at least about 12 m"
-                return chunk.value == "falls"
-            case "bound":
-                return following in ("amount", "no unit", "near") or self.peek()[1] == "as fast as"
+            case "bound":  # "drops to less than 12 m", not "at least about 12 m"
+                bounds = following in ("amount", "no unit", "near") or self.peek()[1] == "as fast as"
+                return chunk.value == "falls" if following == "bound" else bounds
             case "link":  # "north, then south"
                 return chunk.value == "then" and before.kind == following == "heading"
         is_and = (chunk.kind, chunk.value) == ("joint", "and")
@@ -271,8 +275,8 @@ class Taken:
             return "=="
         amount = self.chunks[self.at]
         self.clause.flags |= {value} & {"falls"}
-        far = amount.dimension == "length"
-        if far and self.clause.deed == st.Verb.DRIVE and self.chunks[self.at - 1].words == "up to":
+        onto = self.clause.deed == st.Verb.DRIVE and self.chunks[self.at - 1].words == "up to"
+        if onto and amount.dimension == "length":
             self.clause.flags.add("to there")  # "drives on up to 5 m before it"
             return "=="
         if value == "about":
@@ -329,14 +333,11 @@ class Taken:
         elif kind in ("place", *PEOPLE):
             self._target(side)
         elif (kind, value) == ("area", "driveway") and side in _SIDES and self.peek(-1)[0] == "amount":
-            self.at += 1
-            self.targets.append(Target(self.at - 1, side, self.chunks[self.at], _CONFLICT))
+            self.targets.append(Target(self.at, side, self.step(), _CONFLICT))
         elif (side, kind) == ("from", "amount") and self.clause.deed is not None:  # "brakes from 13 m/s to 8 m/s"
-            self.at += 1
-            amount = self.chunks[self.at].amount
-            if amount is None or amount.dimension != "speed":
+            if (told := self.step()).dimension != "speed":
                 raise self.left_over(chunk)
-            self.clause.begins.append(st.Measure(IT, st.Quantity.SPEED, "==", amount, quote=chunk.quote))
+            self.clause.begins.append(st.Measure(IT, st.Quantity.SPEED, "==", told.amount, quote=chunk.quote))
         elif side == "to" and self.clause.deed and (kind in ("amount", "bound") or value in ("speed", *st.BETWEEN)):
             self.clause.flags.add("to there" if self._is_far() else "to")
             self.stands_at = max(self.stands_at, self.at)
@@ -365,8 +366,7 @@ class Taken:
         if not both:
             self.clause.subject, self.subject_at = one, self.at
             return
-        self.at += 2
-        self.pair = one, self.people.who(self.chunks[self.at])
+        self.pair = one, self.people.who(self.step(2))
 
     def _target(self, side: str) -> None:
         """Take the place or the actor after a side, with whose the place is and with whom."""
@@ -385,13 +385,11 @@ class Taken:
         else:
             who = self.people.who(chunk)
             if self.peek()[0] == "possessive" and self.peek(2)[0] == "place":
-                self.at += 2
-                target.place = replace(self._place(self.chunks[self.at]), of=who)
+                target.place = replace(self._place(self.step(2)), of=who)
             elif self.peek()[0] == "possessive" and "area" in (self.peek(2)[0], self.peek(3)[0]):
                 if self.peek(2)[0] != "area" and self.peek(2)[1] != "oncoming":
                     raise self.left_over(chunk)
-                self.at += 2 if self.peek(2)[0] == "area" else 3  # "into the ego's lane"
-                self.area(self.chunks[self.at], side)
+                self.area(self.step(2 if self.peek(2)[0] == "area" else 3), side)  # "into the ego's lane"
                 self.targets.remove(target)
             else:
                 target.other = who
@@ -402,8 +400,7 @@ class Taken:
             if self.peek()[1] != side or self.peek(2)[0] not in ("actor", "name"):
                 continue
             if side == "of" or chunk.value in ("conflict_point", "intersection", "turn"):
-                self.at += 2
-                person = self.people.who(self.chunks[self.at])
+                person = self.people.who(self.step(2))
                 place = replace(place, of=person) if side == "of" else replace(place, partner=person)
         self.people.place = place
         return place
@@ -420,8 +417,7 @@ class Taken:
             self.at += 1
         if self.peek()[0] not in ("actor", "name"):
             raise self.left_over(chunk)
-        self.at += 1
-        other = self.people.who(self.chunks[self.at])
+        other = self.people.who(self.step())
         slower = chunk.value == "slower" and amount is not None
         self.measure(chunk, st.Measure(IT, st.Quantity.SPEED, op, amount, other=other, opposite=slower))
 
@@ -433,6 +429,11 @@ class Taken:
         """Return kind and value of a chunk from here; nothing where there is none."""
         at = self.at + ahead
         return (self.chunks[at].kind, self.chunks[at].value) if 0 <= at < len(self.chunks) else ("", "")
+
+    def step(self, by: int = 1) -> Chunk:
+        """Go on to a chunk behind this one, and return it."""
+        self.at += by
+        return self.chunks[self.at]
 
     def left_over(self, chunk: Chunk) -> UnknownWordsError:
         """Return the error that names a chunk that nothing was made of."""
@@ -465,22 +466,19 @@ class Taken:
         kind = self.peek()[0]
         is_lane = (kind, self.peek(2)[0]) == ("heading", "area")  # "the westbound lane" is no direction to come from
         if is_lane and side in ("from", "into", "to", "at") and self.chunks[self.at + 1].text.lower().endswith("bound"):
-            self.at += 2
-            self.fact("destination_heading" if side == "into" else "heading", self.chunks[self.at - 1])
-            self.area(self.chunks[self.at], side)
+            self.fact("destination_heading" if side == "into" else "heading", self.step())
+            self.area(self.step(), side)
         elif kind == "heading" and side in ("to", "from"):  # who comes from the east is headed west
-            self.at += 1
-            self.headed(self.chunks[self.at], back=side == "from")
+            self.headed(self.step(), back=side == "from")
         elif kind == "area" and side in ("at", "into", "from"):
-            self.at += 1
-            self.area(self.chunks[self.at], side)
+            self.area(self.step(), side)
         else:
             return False
         return True
 
     def headed(self, chunk: Chunk, back: bool = False) -> None:
         """Take a heading, of the way before or after its turn; `back` is where somebody comes from."""
-        later = "then" in self.clause.facts or self.clause.facts.get("turn", "straight") != "straight"
+        later = "then" in self.clause.facts or self.clause.turns
         if back:
             chunk = replace(chunk, value=COMPASS[(COMPASS.index(chunk.value) + 2) % 4])
         self.fact("destination_heading" if later and not back else "heading", chunk)
@@ -490,7 +488,7 @@ class Taken:
         before = self.chunks[self.at - 1].words if self.at else ""
         if (before.endswith("off") and "turn" not in self.clause.facts) or (not side and before[:8] == "approach"):
             raise self.left_over(chunk)
-        turned = self.clause.facts.get("turn", "straight") != "straight" and side != "from"
+        turned = self.clause.turns and side != "from"
         self.clause.notes |= {"area"} if self.clause.deed not in (None, st.Verb.DRIVE) else set()  # "stops in it"
         self.fact("destination" if side == "into" or turned else "origin", chunk)
 

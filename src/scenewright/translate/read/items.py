@@ -397,7 +397,7 @@ class _Items:
 
     def _read(self, own: list[Chunk]) -> Clause:
         clause = read_clause(own, self.people, self.subject if self.before is None else self.before.subject)
-        if clause.facts.get("turn", "straight") != "straight":
+        if clause.turns:
             self.turned.add(clause.subject)
         elif clause.subject in self.turned and "heading" in clause.facts and "headed" not in clause.flags:
             heading = clause.facts.pop("heading")  # "turns left out of it and goes east"

@@ -30,6 +30,15 @@ class Leads:
     words: set[str] = field(default_factory=set)
     own: str = ""
     delay: Margin | None = None
+    pending: int | None = None  # a moment that was told just before, and nobody did anything at it
+    moment: int | None = None  # that the sentence tells itself
+    is_of_last: bool = False  # that moment stands behind what is done: it is of the last deed
+
+    def moment_of(self, story: Narrative, when: list[Clause]) -> int:
+        """Return the moment that a sentence tells: one, for all that is said of it."""
+        if self.moment is None:
+            self.moment = story.moment(when)
+        return self.moment
 
 
 def leads_of(story: Narrative, chunks: Sequence[Chunk], words: Set[str] = frozenset()) -> Leads:
@@ -71,10 +80,10 @@ def _delay_of(chunks: Sequence[Chunk]) -> tuple[Margin | None, Sequence[Chunk]]:
     return (bound or "==", amount), [each for each in chunks if each not in taken]
 
 
-def same_time(story: Narrative, pending: int | None, words: Set[str]) -> int | None:
-    """Return the moment of what was told last: what waits for what happens, or a deed's beginning, or end ("that")."""
-    if pending is not None or not story.doings:
-        return pending
+def same_time(story: Narrative, words: Set[str]) -> int | None:
+    """Return the moment of the deed that was told last, if any was: its beginning, or its end ("that")."""
+    if not story.doings:
+        return None
     last = story.doings[-1]
     if "that" in words and (last.ends is not None or last.rests):
         name, (_, begin, finish) = story.actor(last.actor).name, DOES[last.verb]
@@ -106,7 +115,7 @@ def told_before(story: Narrative, clause: Clause) -> Doing | None:
     return own if passes or (own.verb == verb and verb in CHANGES) else None
 
 
-def moment_led_to(story: Narrative, clause: Clause, leads: Leads, pending: int | None, is_tied: bool) -> int | None:
+def moment_led_to(story: Narrative, clause: Clause, leads: Leads, is_tied: bool) -> int | None:
     """Return the moment at which a deed begins as the words in front of it say; None where it follows its own last.
 
     Who acts after somebody else did, and is not tied to that by a word, would be at it from the start.
@@ -115,7 +124,7 @@ def moment_led_to(story: Narrative, clause: Clause, leads: Leads, pending: int |
     if "same time" in words:
         if last is None:
             story.refuse("it is not clear at the same time as what", fix="begin it with 'When ...,'")
-        return same_time(story, None, words)
+        return same_time(story, words)
     own = last_of(story, clause.subject)
     if "meanwhile" in words and own is not None and own is last:
         story.refuse("two deeds at one time are told of one")
@@ -126,7 +135,7 @@ def moment_led_to(story: Narrative, clause: Clause, leads: Leads, pending: int |
     is_new = last is not None and own is None and not is_tied
     follows = last is not None and (last is not own or story.since is not None) and not leads.own
     if delay is not None or (words & _LATER and follows):
-        told = None if leads.own else story.since if pending is None else pending
+        told = None if leads.own else story.since if leads.pending is None else leads.pending
         after = _after(story, own if leads.own else last, clause, leads) if told is None else told
         if after is None:
             return None

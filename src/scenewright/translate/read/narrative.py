@@ -202,7 +202,7 @@ class Narrative(Cast):
             beside = not {"is", "are"} & {*words} and any(each.endswith("ing") for each in words)
             if item.facts and fast and not (wish or beside or item.joined or item.flags):  # "when the ego leaves it"
                 self.refuse("this is no condition", item.quote, "say where it is then, or what it passes")
-            if wish or (item.facts.get("turn", "straight") == "straight" and not item.relations):
+            if wish or not (item.turns or item.relations):
                 self.tell(item)
             meant = {"wanted", "event"} <= item.notes  # "is about to pass it": then it has not
             if meant or item.says_more_than("measures", "joined", *taken):
