@@ -491,3 +491,10 @@ def test_up_to_is_a_bound_but_of_where_one_drives() -> None:
 def test_who_does_what_stands_behind_a_moment_is_asked() -> None:
     told = told_in(f"{ROAD}The hero speeds up to 15 m/s {BEHIND} and brakes.")
     assert "Of whom is 'brakes'" in told
+
+
+def test_a_clause_of_commas_or_of_an_amount_alone_is_no_crash() -> None:
+    bound = read("The ego drives west. The hero drives west. 5 m/s or more.")
+    assert "At the start, the hero drives at a speed of at least 5 m/s." in tell(bound)
+    for text in (BRAKES + "5 m/s or more.", ALONG + "When the hero stops, if , , the hero brakes at 5 m/s."):
+        assert reading_of(text).kind == "refused"

@@ -139,7 +139,7 @@ class _Acts:
     def _join(self, item: Clause) -> None:
         """Keep a clause, as one with that before it where both are of one deed."""
         before = self._before(item)
-        beside = item.quote.text.split()[0].endswith("ing") and "then" not in item.notes
+        beside = "then" not in item.notes and [each[-3:] for each in item.quote.text.split()[:1]] == ["ing"]
         if beside and before.deed and (item.deed in CHANGES or (item.deed and before.deed == "turn")):
             if before.deed != st.Verb.DRIVE or before.says_more_than("deed"):  # "turns left, accelerating at 2 m/s^2"
                 told = "it is not clear whether this is done then or meanwhile"

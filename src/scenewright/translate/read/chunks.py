@@ -275,7 +275,7 @@ def _described(chunks: list[Chunk]) -> list[Chunk]:
             found[at] = replace(each, kind="share")
     for at, each in enumerate(found):
         if each.kind == "or bound" and found[at - 1].kind == "amount":  # "5 m/s or more"
-            found[at - 1 : at + 1] = [replace(each, kind="bound"), found[at - 1]]
+            found[at - 1 : at + 1] = [_at(replace(each, kind="bound"), found[at - 1]), found[at - 1]]
     kept = [each for each in found if each in another or each.kind not in ("filler", "det")]
     return [replace(each, kind="unknown") if each in another else each for each in kept]  # "another stop line"
 

@@ -313,6 +313,8 @@ class _Items:
 
     def one(self, inside: tuple[str, ...]) -> Clause:
         """Return the item that begins here; `inside` are the words that end it."""
+        while self.at < len(self.chunks) and self.chunks[self.at].kind == "comma":
+            self.at += 1
         if self.at >= len(self.chunks):
             self.people.refuse("a condition is missing", fix="say what is so")
         chunk = self.chunks[self.at]
