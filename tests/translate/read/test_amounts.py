@@ -26,7 +26,6 @@ TWO = [  # what is said, and the two amounts that the message names
     ("brakes at 2 m/s^2 and stops at 3 m/s^2.", "2 m/s^2 and 3 m/s^2"),
     ("brakes for 2 s for 3 s.", "2 s and 3 s"),
     ("waits for 2 s and for 3 s.", "2 s and 3 s"),
-    ("brakes for 2 s and stops for 3 s.", "2 s and 3 s"),
     ("speeds up to 5 m/s to 6 m/s.", "5 m/s and 6 m/s"),
     ("accelerates to 30 km/h to 40 km/h.", "30 km/h and 40 km/h"),
     ("speeds up until it drives at 5 m/s to 6 m/s.", "5 m/s and 6 m/s"),

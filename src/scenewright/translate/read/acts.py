@@ -150,16 +150,20 @@ class _Acts:
             if before.says_more_than("deed", "measures"):
                 self.story.refuse("it is not clear where it stops", item.quote, "say it: 'stops at ...'")
             item.measures, before = self.found.pop().measures, Clause(item.quote)
-        if brakes := before.deed == st.Verb.BRAKE:  # "brakes and stands 5 m before"
+        brakes, halts = before.deed == st.Verb.BRAKE, before.deed == "stop" or "standstill" in before.flags
+        if brakes:  # "brakes and stands 5 m before"
             let_stand(item, "stop")
         stands = before.deed in ("stop", st.Verb.STAND)  # who stands passes nothing: that comes after it
-        more = before.says_more_than("deed", "phase", "rates", "measures", "times", "begins")
+        more = before.says_more_than("deed", "phase", "rates", "measures", "times", "begins", "flags")
+        more |= bool(before.flags - {"standstill"} or "later" in item.times) or (halts and "for" in before.times)
         if before.deed is not None and not stands and item.is_event and not before.measures:
             before.measures, before.notes = item.measures, before.notes | item.notes
-        elif brakes and item.deed == "stop" and not more:  # it is told twice
+        elif (brakes or halts) and item.deed == "stop" and not more:  # it is told twice
             self.found[-1], item.rates, item.begins = item, [*before.rates, *item.rates], [*before.begins, *item.begins]
             item.measures = [*before.measures, *item.measures]
-            item.times |= {name: [*several, *item.times.get(name, ())] for name, several in before.times.items()}
+            for name, several in before.times.items():  # "brakes for 3 s and stops": so long it brakes
+                own = "in" if name == "for" else name
+                item.times[own] = [*several, *item.times.get(own, ())]
             item.agree()
         elif item.says_more_than():
             if (stands or self._is_of_hero(item)) and item.is_event:

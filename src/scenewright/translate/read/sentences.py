@@ -221,11 +221,16 @@ class _Sentence:
         story, ways = self.story, ("the last of these deeds", "the first of them")
         one = len({each.subject for each in items}) == 1 and all(each.deed for each in items)
         one &= "both" not in items[0].notes
-        late = self.led.is_of_last and one and story.is_first("last", "What begins then", ways, story.quote)
+        before = any(each.is_first and each.link == "before" for each in rest)  # the first of them, or all of them
+        late = (self.led.is_of_last or before) and one
+        late = late and story.is_first("last", "What begins then", ways, story.quote)
         then, when = when, None if late else when
         for item, following in zip_longest(items, items[1:]):
             both = "both" in item.notes
-            self._main([item], then if late and following is None else when, [] if following and not both else rest)
+            # What stands in front dates the first of them, what stands behind the last.
+            fronts = [each for each in rest if each.is_first and not (late and each.link == "before")]
+            own = [each for each in rest if both or (item is items[0] if each in fronts else following is None)]
+            self._main([item], then if late and following is None else when, own)
             if following is None:
                 continue
             same = following.subject == item.subject
