@@ -72,3 +72,11 @@ def test_how_long_somebody_brakes_that_stops_then_is_not_how_long_it_stands() ->
     for first in ("brakes at 2 m/s^2", "brakes to a stop"):  # it was 3 s after the moment
         with pytest.raises(TranslationError, match="who stands does not brake"):
             read(f"{WHEN}{first} and 3 s later stops 5 m before the conflict point.")
+
+
+@pytest.mark.parametrize("does", ["begins to brake 15 m before the stop line", "speeds up 2 s after the ego passes it",
+                                  "sets off 2 s after the ego passes the stop line"])  # fmt: skip
+def test_what_is_done_at_the_start_begins_at_no_other_time(does: str) -> None:
+    """That it is at the start was held by nothing."""
+    with pytest.raises(TranslationError, match="to begin at the start, and at another time"):
+        read(f"{JOINS}At the start, the ego is 12 m before the stop line. At the start, the hero {does}.")

@@ -167,6 +167,8 @@ class _Deed:
         led = self.led.words | ({"passes"} if verb == st.Verb.DRIVE and "event" in clause.notes else set())
         # Where this says when it begins, and not what it did before.
         if is_placed or any(self._is_of_beginning(each) or (each.margins and not self.ends) for each in orders):
+            if "start" in led:  # "At the start, it brakes 15 m before the stop line"
+                story.refuse("it is told to begin at the start, and at another time", clause.quote, "say one of them")
             led |= {"then", "apart"}
         led |= {"then"} if orders and verb in CHANGES and "start" not in led else set()  # not from the start
         if sets_off and last_of(story, self.actor) is None:
