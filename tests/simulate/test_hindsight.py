@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -9,7 +10,7 @@ import pytest
 
 from scenewright.motion.profile import Profile, chain
 from scenewright.program.types import EGO
-from scenewright.simulate.hindsight import _moments_at, drive_profile, ego_left_no_room
+from scenewright.simulate.hindsight import _ego_knots, _moments_at, drive_profile, ego_left_no_room
 from scenewright.solve.arrival import TIGHT_TIME_S, LinearCondition, tight_of
 from scenewright.solve.feasibility import Feasibility
 from stories import HERO, STORIES, Scripted, Stage, driven
@@ -49,6 +50,13 @@ def test_standing_within_tolerance_lasts_as_long_as_it_stands() -> None:
 
 def test_never_there_gives_none() -> None:
     assert _moments_at(at(500.0), STOPS, 17.0) == []
+
+
+def test_knots_before_the_trigger_are_sought_before_it() -> None:
+    conditions = [replace(at(m), moments=frozenset({(EGO, name)})) for name, m in (("t1", 20.0), ("t3", 50.0))]
+    knots = _ego_knots(conditions, STOPS, {"t0": 0.0, "t2": 4.0}, ["t0", "t1", "t2", "t3"], 17.0)
+    assert knots["t1"] == pytest.approx(2.0)
+    assert 4.0 < knots["t3"] < 9.0
 
 
 def rushing(at_s: float) -> Scripted:

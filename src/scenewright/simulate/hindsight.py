@@ -6,14 +6,13 @@ from what the orchestrator failed to do; it changes no verdict.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from itertools import pairwise
 
 import numpy as np
 
 from scenewright.motion.limits import Limits
 from scenewright.motion.profile import Profile, Segment
-from scenewright.plan.triggers import TriggerTimes
 from scenewright.program.structure import Structure, knots_of
 from scenewright.program.types import EGO
 from scenewright.roads.grounding import Scene
@@ -24,7 +23,6 @@ from scenewright.trace.model import ActorTrace, Trace
 _STRETCH_S = 0.1
 # An ego that is at its side for longer than this many moments leaves room for doubt.
 _MOST_MOMENTS = 150
-_LONG_AFTER_S = 60.0  # the end of a run a knot is that never came
 
 
 def ego_left_no_room(
@@ -48,11 +46,9 @@ def ego_left_no_room(
     if not 0 < len(moments) <= _MOST_MOMENTS:
         return None
     proof, bending = None, frozenset(hero.id for hero in scene.program.heroes)
-    times, never_s = TriggerTimes(scene, structure, tuple(conditions)), trace.duration_s + _LONG_AFTER_S
     for moment_s in moments:
-        knots = times.ego_knots_s(0.0, motion, {names[0]: 0.0, trigger: moment_s}, {})
-        passed = {name: at_s for name, at_s in knots.items() if at_s <= trace.duration_s}
-        drive = Profile(motion.segments, dict.fromkeys(names, never_s) | passed)
+        knots = _ego_knots(conditions, motion, {names[0]: 0.0, trigger: moment_s}, names, trace.duration_s)
+        drive = Profile(motion.segments, knots)
         question = Question(scene, structure, limits, drive=drive, bending=bending)
         found = check_feasibility(question, explain=proof is None)
         if found.answer != "infeasible":
@@ -77,6 +73,25 @@ def _moments_at(side: LinearCondition, motion: Profile, end_s: float) -> list[fl
         if abs(side.value({EGO: state})) <= tight_of(side, state[1]):
             moments.append(time_s)
     return sorted(moments)
+
+
+def _ego_knots(
+    conditions: Sequence[LinearCondition],
+    motion: Profile,
+    told_s: Mapping[str, float],
+    names: Sequence[str],
+    end_s: float,
+) -> dict[str, float]:
+    """Return when the ego passed all its knots, had it passed some then; long after the end where it never did."""
+    knots, since_s = dict(told_s), 0.0
+    for name in names:
+        condition = next((c for c in conditions if c.moments == {(EGO, name)}), None)
+        if name not in knots and condition is not None:
+            time_s = condition.first_time({EGO: motion}, since_s)
+            if time_s is not None and time_s <= end_s:
+                knots[name] = time_s
+        since_s = max(since_s, knots.get(name, 0.0))
+    return dict.fromkeys(names, end_s + 60.0) | knots
 
 
 def drive_profile(actor: ActorTrace) -> Profile:
