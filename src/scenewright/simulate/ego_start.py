@@ -10,6 +10,7 @@ import math
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -30,7 +31,7 @@ _ROUNDING_S = 1e-6
 # Of a start, until an ego comes to its place when it is told to. Measured: where the road is straight one is exact;
 # chosen for bends.
 SHIFTS = 4
-_STEP_S = 0.05
+_STEP_S, _MOST_STEPS = 0.05, 2400
 # How long an ego is driven alone at most (s), and how finely that is kept; chosen: what is later is planned later.
 _ALONE_S, _STRETCH_S = 40.0, 0.1
 _SLOWEST_MPS = 0.5
@@ -219,12 +220,23 @@ def _steady(ego: EgoVehicle, way: _Way, speed_mps: float) -> EgoFirstState:
     """Let the policy drive alone towards where it is to start and take the state in which it gets there."""
     target = way.start_m(speed_mps)
     there = way.begins or LinearCondition("", frozenset(), -target, {EGO: (1.0, 0.0)})
-    run_up_m = min(3 * _RUN_UP_M if there.weights[EGO][1] else _RUN_UP_M, target - 1.0)
-    if run_up_m >= 1.0:
-        motion = drives_alone(ego, EgoFirstState(target - run_up_m, speed_mps), _STEP_S)
-        at_s = there.first_time({EGO: motion}, 0.0)
-        if at_s is not None and at_s <= motion.end_s and (now_mps := motion.state(at_s)[1]) >= _SLOWEST_MPS:
-            return EgoFirstState(there.place_m(EGO, now_mps), now_mps)
+    per_metre, per_speed = there.weights[EGO]
+    run_up = min(3 * _RUN_UP_M if per_speed else _RUN_UP_M, target - 1.0)
+
+    def states() -> Iterator[tuple[float, float]]:
+        """Yield, step by step, its speed and a number that turns from negative to positive when it comes there."""
+        ego.reset(target - run_up, speed_mps)
+        for step in range(_MOST_STEPS):
+            now = ego.state
+            yield now.speed_mps, math.copysign(1.0, per_metre) * there.value({EGO: (now.s_m, now.speed_mps)})
+            ego.advance(ego.decide(step * _STEP_S, (), _STEP_S), _STEP_S)
+
+    for (last_mps, before), (now_mps, after) in pairwise(states()) if run_up >= 1.0 else ():
+        if before < 0.0 <= after:
+            speed = last_mps - before / (after - before) * (now_mps - last_mps)
+            if speed < _SLOWEST_MPS:
+                break
+            return EgoFirstState(there.place_m(EGO, speed), speed)
     return EgoFirstState(target, speed_mps)
 
 
