@@ -38,11 +38,13 @@ def _version(wanted: bool) -> None:
         raise typer.Exit
 
 
-@app.callback(
-    epilog=_examples(f'scenewright run "{SENTENCE}"')
-    + "\n\n[bold]Exit status[/bold]\n\n0 it happened as described, 1 it did not, 2 the input is wrong, "
+_STATUS = (
+    "\n\n[bold]Exit status[/bold]\n\n0 it happened as described, 1 it did not, 2 the input is wrong, "
     "3 proven impossible, 4 gave up, 130 interrupted"
 )
+
+
+@app.callback(epilog=_examples(f'scenewright run "{SENTENCE}"') + _STATUS)
 def _all(
     version: Annotated[
         bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version.")
@@ -61,6 +63,7 @@ app.command(
     epilog=_examples(
         f'scenewright run "{SENTENCE}" --out runs/first', f"{_TRANSLATE}", "scenewright run first.scene --ego dawdler"
     )
+    + _STATUS
 )(running.run)
 _BY_A_MODEL = (
     "\n\n[bold]Exit status[/bold]\n\n0 understood; 2 refused, or something must be answered; 4 no reply of a model\n\n"
@@ -89,6 +92,7 @@ app.command(
         "scenewright check first.scene --out witness",
         "scenewright check first.scene --solver cvc5",
     )
+    + "\n\n[bold]Exit status[/bold]\n\n0 it can happen, 2 the input is wrong, 3 proven impossible, 4 undecided"
 )(checking.check)
 app.command(epilog=_examples(_TRANSLATE, "scenewright solve first.scene --out plan.json"))(reading.solve)
 app.command(epilog=_examples(_TRANSLATE, _RUN, "scenewright judge runs/first --tolerance loose"))(looking.judge)

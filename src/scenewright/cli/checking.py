@@ -45,7 +45,7 @@ _WORST_FIRST = (2, 3, 4, 0)
 def check(
     asked: Asked, more: More = None, out: WitnessFolder = None, solver: Solver = "z3", as_json: AsJson = False
 ) -> None:
-    """Say whether a scenario can happen at all: by a motion in which it does, or by a proof with what would help."""
+    """Say whether a scenario can happen at all: show a motion in which it does, or prove that none exists."""
     with told(as_json):
         if more:
             each = [replace(asked, source=source) for source in (asked.source, *more)]

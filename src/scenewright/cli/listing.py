@@ -65,7 +65,7 @@ def egos(as_json: AsJson = False) -> None:
 
 
 def solvers(as_json: AsJson = False) -> None:
-    """List the solvers that check --solver can name: what each can do, or what it misses."""
+    """List the solvers that check --solver can name: what each can do, or how to install it."""
     with told(as_json):
         from scenewright.solve.proofs.refuters import SOLVERS
 
@@ -73,7 +73,7 @@ def solvers(as_json: AsJson = False) -> None:
 
 
 def simulators(as_json: AsJson = False) -> None:
-    """List the simulators that run --simulator can name: what each can do, or what it misses."""
+    """List the simulators that run --simulator can name: what each can do, or how to install it."""
     with told(as_json):
         from scenewright.simulate.port import SIMULATORS
 

@@ -165,7 +165,7 @@ MapName = Annotated[
     str | None,
     typer.Option("--map", metavar="NAME|FILE", help=_MAP_HELP, autocompletion=complete_map, show_default=False),
 ]
-_EGO_HELP = "The driving policy under test: a built-in one, or module:Class for your own."
+_EGO_HELP = "The driving policy under test: a built-in one, or module:Class or file.py:Class for your own."
 Ego = Annotated[str, typer.Option("--ego", metavar="NAME[:k=v,...]", help=_EGO_HELP, autocompletion=complete_ego)]
 _TRANSLATOR_HELP = (
     "What reads a description: auto (the model that is configured, else offline; see `scenewright models`), offline, "
@@ -174,21 +174,21 @@ _TRANSLATOR_HELP = (
 Translator = Annotated[
     str, typer.Option("--translator", metavar="NAME", help=_TRANSLATOR_HELP, autocompletion=complete_translator)
 ]
-_SOLVER_HELP = "What refutes; `scenewright solvers` lists what there is."
+_SOLVER_HELP = "What proves that something cannot happen; `scenewright solvers` lists what there is."
 Solver = Annotated[str, typer.Option("--solver", metavar="NAME", help=_SOLVER_HELP, autocompletion=complete_solver)]
-_SIMULATOR_HELP = "What everybody drives in; `scenewright simulators` lists what there is."
+_SIMULATOR_HELP = "The simulator to drive in; `scenewright simulators` lists what there is."
 Simulator = Annotated[
     str, typer.Option("--simulator", metavar="NAME", help=_SIMULATOR_HELP, autocompletion=complete_simulator)
 ]
 AsJson = Annotated[bool, typer.Option("--json", help="Print one JSON object on stdout and nothing else there.")]
 ModeOption = Annotated[
-    Mode, typer.Option("--mode", help="Re-solve while the ego drives (closed), or carry out the first plan (open).")
+    Mode, typer.Option("--mode", help="Plan again while the ego drives (closed), or carry out the first plan (open).")
 ]
 PlannerOption = Annotated[
     PlannerName,
     typer.Option(
         "--planner",
-        help="What plans: convex optimisation, or an SMT solver at every tick, as in the paper "
+        help="What plans the heroes: convex optimisation, or an SMT solver at every tick, as in the paper "
         "(`run examples/demo.txt --ego constant --planner smt`).",
     ),
 ]
@@ -199,7 +199,7 @@ AimOption = Annotated[
     Level | None,
     typer.Option(
         "--aim",
-        help="Takes go on until one holds at this tolerance, naturally driven. Default: that of --tolerance.",
+        help="Drive again until a take holds at this tolerance, naturally driven. Default: that of --tolerance.",
         show_default=False,
     ),
 ]
@@ -207,7 +207,7 @@ FailOnOption = Annotated[
     FailOn | None,
     typer.Option(
         "--fail-on",
-        help="End in status 1 where this came of a run that happened as described.",
+        help="End in status 1 also where it happened as described, but this came of it.",
         show_default=False,
     ),
 ]

@@ -69,18 +69,18 @@ def run(
         ),
     ] = None,
     replan_hz: Annotated[
-        float, typer.Option("--replan-hz", min=0.1, max=50.0, help="Re-solves in a simulated second.")
+        float, typer.Option("--replan-hz", min=0.1, max=50.0, help="Plans of the heroes in a simulated second.")
     ] = 10.0,
     takes: Annotated[
         int,
-        typer.Option(min=1, max=20, help="Runs until one is good; a later one knows how the ego drove in the last."),
+        typer.Option(min=1, max=20, help="At most so many runs; a later one knows how the ego drove in the last."),
     ] = 3,
     aim: AimOption = None,
     predictor: Annotated[
-        str, typer.Option(help="How the ego is foreseen: road (slows for turns and lines), acceleration or speed.")
+        str, typer.Option(help="How the ego is predicted: road (slows for turns and lines), acceleration or speed.")
     ] = "road",
     ways_out: Annotated[
-        bool, typer.Option("--ways-out/--no-ways-out", help="Where the run misses, try other numbers for some seconds.")
+        bool, typer.Option("--ways-out/--no-ways-out", help="After a miss, look for numbers with which it happens.")
     ] = True,
     simulator: Simulator = "builtin",
     planner: PlannerOption = "convex",
@@ -88,7 +88,7 @@ def run(
     quiet: Annotated[bool, typer.Option("--quiet", help="Print nothing but where the run is.")] = False,
     open_page: Annotated[bool, typer.Option("--open", help="Open the run's page in the browser afterwards.")] = False,
 ) -> None:
-    """Make what a description says happen around a driving policy, and judge whether it did."""
+    """Drive a description around a driving policy in closed loop, and judge whether it happened."""
     with told(as_json):
         request = asked.request(
             mode=mode,

@@ -11,7 +11,7 @@ from scenewright.cli.options import AsJson, MapName, Source
 
 
 def tell(source: Source, map_name: MapName = None, as_json: AsJson = False) -> None:
-    """Tell a program in plain English: who there is, the moment, and what happens, one line each."""
+    """Tell a program or a description in plain English, a text that can be read again."""
     with told(as_json):
         from scenewright.translate.decompile import decompile
         from scenewright.translate.sources import read_scenario
