@@ -140,7 +140,8 @@ class _Acts:
         """Keep a clause, as one with that before it where both are of one deed."""
         before = self._before(item)
         beside = "then" not in item.notes and [each[-3:] for each in item.quote.text.split()[:1]] == ["ing"]
-        if beside and before.deed and (item.deed in CHANGES or (item.deed and before.deed == "turn")):
+        passes = item.is_event and before.rests  # "brakes to a stop, passing the stop line"
+        if beside and before.deed and (passes or item.deed in CHANGES or (item.deed and before.deed == "turn")):
             if before.deed != st.Verb.DRIVE or before.says_more_than("deed"):  # "turns left, accelerating at 2 m/s^2"
                 told = "it is not clear whether this is done then or meanwhile"
                 self.story.refuse(told, item.quote, "say 'then', or 'while'")
@@ -150,13 +151,16 @@ class _Acts:
             if before.says_more_than("deed", "measures"):
                 self.story.refuse("it is not clear where it stops", item.quote, "say it: 'stops at ...'")
             item.measures, before = self.found.pop().measures, Clause(item.quote)
-        brakes, halts = before.deed == st.Verb.BRAKE, before.deed == "stop" or "standstill" in before.flags
+        brakes, halts = before.deed == st.Verb.BRAKE, before.rests
         if brakes:  # "brakes and stands 5 m before"
             let_stand(item, "stop")
-        stands = before.deed in ("stop", st.Verb.STAND)  # who stands passes nothing: that comes after it
+        # Who stands passes nothing, and what has an end of its own does not end there: that comes after it.
+        stands = halts or before.deed == st.Verb.STAND
+        over = stands or (before.deed and (before.measures or "for" in before.times))
+        over = over or (brakes and "then" in item.notes)
         more = before.says_more_than("deed", "phase", "rates", "measures", "times", "begins", "flags")
         more |= bool(before.flags - {"standstill"} or "later" in item.times) or (halts and "for" in before.times)
-        if before.deed is not None and not stands and item.is_event and not before.measures:
+        if before.deed is not None and not over and item.is_event:
             before.measures, before.notes = item.measures, before.notes | item.notes
         elif (brakes or halts) and item.deed == "stop" and not more:  # it is told twice
             self.found[-1], item.rates, item.begins = item, [*before.rates, *item.rates], [*before.begins, *item.begins]
@@ -166,7 +170,7 @@ class _Acts:
                 item.times[own] = [*several, *item.times.get(own, ())]
             item.agree()
         elif item.says_more_than():
-            if (stands or self._is_of_hero(item)) and item.is_event:
+            if (over or self._is_of_hero(item)) and item.is_event:
                 _pass(item)
             self.found.append(item)
             comes = [each for each in item.measures if st.is_event(each)]
@@ -218,7 +222,7 @@ def lasting(clause: Clause) -> None:
 
 def shares_of(story: Narrative, clause: Clause) -> tuple[list[st.Measure], list[st.Measure], list[st.Measure]]:
     """Return what a deed's own clause says of its beginning, of the deed throughout, and of its end."""
-    rests = clause.deed == "stop" or "standstill" in clause.flags
+    rests = clause.rests
     begins, held, ends = [*clause.begins], list[st.Measure](), [st.standstill(clause.subject or EGO)] * rests
     for measure in clause.measures:
         fast = measure.quantity is st.Quantity.SPEED

@@ -116,7 +116,7 @@ def _placed(taken: Taken, at: int, make: Callable[[], None]) -> None:
         return
     made = [each for each in clause.measures[known:] if each.quantity is not st.Quantity.SPEED]
     between = taken.deed_at < at < taken.stands_at
-    if between and made and (clause.deed == "stop" or "standstill" in clause.flags):
+    if between and made and clause.rests:
         clause.notes.add("between")  # "brakes 30 m before it to a stop"
     elif between or at < taken.deed_at:  # "brakes 30 m before it to 4 m/s", "the car that is 30 m before it brakes"
         clause.measures = [each for each in clause.measures if each not in made]

@@ -64,8 +64,8 @@ class Clause:
     facts: dict[str, str] = field(default_factory=dict)
     flags: set[str] = field(default_factory=set)
     relations: list[st.Relation] = field(default_factory=list)
-    # How it is said, which is no meaning by itself: as an ``event``, as ``wanted``; that it has a verb (``said``), is
-    # of two (``both``), began before (``at it``), names a ``distance``, or a place ``between`` deed and standstill.
+    # How it is said, which is no meaning by itself: as an ``event``, as ``wanted``; that it has a verb (``said``), of a
+    # deed (``does``), is of two (``both``), began before (``at it``), names a ``distance``, or a place ``between``.
     notes: set[str] = field(default_factory=set)
 
     def says_more_than(self, *expected: str) -> bool:
@@ -77,6 +77,11 @@ class Clause:
     def conditions(self) -> list[st.Condition]:
         """All that it says is so."""
         return [*self.measures, *self.joined]
+
+    @property
+    def rests(self) -> bool:
+        """Whether what is done ends in a standstill."""
+        return self.deed == "stop" or "standstill" in self.flags
 
     @property
     def turns(self) -> bool:
@@ -202,7 +207,7 @@ class Taken:
             case "deed" if clause.deed is None:
                 clause.deed, self.deed_at = value, self.at
                 rests = chunk.words.endswith((" off", " away", " out")) or chunk.words.startswith(("start", "resum"))
-                clause.notes |= {"sets off"} if rests and value == st.Verb.DRIVE else set()  # who does stands before
+                clause.notes |= {"does", *(["sets off"] if rests and value == st.Verb.DRIVE else [])}
             case "from rest" if clause.phase == "begins" or clause.deed in (st.Verb.DRIVE, st.Verb.SPEED_UP):
                 clause.notes.add("sets off")
             case "phase" if clause.phase is None:
@@ -292,9 +297,8 @@ class Taken:
             raise self.left_over(chunk)  # "slower than the ego at 15 m/s"
         turns = any(each.kind == "turn" and each.value != "straight" for each in self.chunks[: self.at])
         self.clause.notes |= {"comes"} if fast and turns and not {"drives", "goes"} & self.states else set()
-        op = self.bound()
+        op, amount = self.bound(), chunk.amount
         lead = self.peek(-2 if self.peek(-1)[0] == "bound" else -1)
-        amount = chunk.amount
         if amount is None:
             raise self.left_over(chunk)
         led = [each for each in ("for", "in")
@@ -363,10 +367,10 @@ class Taken:
         if not both and (chunk.value != "of" or self.clause.subject is not None):
             raise self.left_over(chunk)
         one = self.people.who(self.chunks[self.at])
-        if not both:
+        if both:
+            self.pair = one, self.people.who(self.step(2))
+        else:
             self.clause.subject, self.subject_at = one, self.at
-            return
-        self.pair = one, self.people.who(self.step(2))
 
     def _target(self, side: str) -> None:
         """Take the place or the actor after a side, with whose the place is and with whom."""
@@ -397,9 +401,8 @@ class Taken:
     def _place(self, chunk: Chunk) -> st.Place:
         place = st.Place(chunk.value)
         for side in ("of", "with"):
-            if self.peek()[1] != side or self.peek(2)[0] not in ("actor", "name"):
-                continue
-            if side == "of" or chunk.value in ("conflict_point", "intersection", "turn"):
+            named = self.peek()[1] == side and self.peek(2)[0] in ("actor", "name")
+            if named and (side == "of" or chunk.value in ("conflict_point", "intersection", "turn")):
                 person = self.people.who(self.step(2))
                 place = replace(place, of=person) if side == "of" else replace(place, partner=person)
         self.people.place = place

@@ -91,7 +91,7 @@ class _Deed:
         self._fill(doing)
         self._end(doing, next((each for each in self.rest if each.link == "until"), None))
         self._put_in_order(doing)
-        if self.rests and "for" in clause.times:  # "stops for 3 s"
+        if clause.rests and "for" in clause.times:  # "stops for 3 s"
             if self.deed != "stop":
                 story.refuse("it is not clear what lasts so long")
             story.begin(self.actor, st.Verb.STAND, None, set()).lasts += dict.fromkeys(clause.times["for"])
@@ -99,10 +99,6 @@ class _Deed:
     @property
     def verb(self) -> str:
         return _VERBS.get(self.deed, self.deed)
-
-    @property
-    def rests(self) -> bool:
-        return self.deed == "stop" or "standstill" in self.clause.flags
 
     def _moment(self) -> int | None:
         """Return the moment at which it begins; None where that is the end of the deed before."""
@@ -157,13 +153,17 @@ class _Deed:
             self.dates_end, self.is_event = not self.dates_begin, self.is_event and not self.dates_begin
 
     def _is_of_beginning(self, dating: Segment) -> bool:
+        """Whether what stands in front dates what is done, or this its beginning; a mere event has none."""
+        if self.is_event and not (dating.is_first and "does" in self.clause.notes):
+            return False
         return self.dates_begin or dating.is_first or (dating.link == "after" and not self.dates_end)
 
     def _begin(self, moment: int | None, is_placed: bool) -> Doing:
         """Begin it in the narrative; `is_placed` where its own clause says where it begins."""
         story, clause = self.story, self.clause
         verb, sets_off = self.verb, "sets off" in clause.notes
-        orders = [each for each in self.rest if each.link in ORDERS and not self.is_event]
+        orders = [each for each in self.rest if each.link in ORDERS]
+        orders = [each for each in orders if not self.is_event or self._is_of_beginning(each)]
         led = self.led.words | ({"passes"} if verb == st.Verb.DRIVE and "event" in clause.notes else set())
         # Where this says when it begins, and not what it did before.
         if is_placed or any(self._is_of_beginning(each) or (each.margins and not self.ends) for each in orders):
@@ -201,7 +201,7 @@ class _Deed:
             agree(doing.throughout, clause.quote)
         if "to" in clause.flags and "for" in clause.times and self.deed in CHANGES:  # "brakes to 5 m/s for 4 s"
             story.refuse("it is not clear what lasts so long", clause.quote, "say 'in', or that it keeps that speed")
-        lasts = (*([] if self.rests else clause.times.get("for", ())), *clause.times.get("in", ()))
+        lasts = (*([] if clause.rests else clause.times.get("for", ())), *clause.times.get("in", ()))
         doing.lasts += dict.fromkeys(lasts)
         if "while" in clause.flags and self.ends:
             story.refuse("it is not clear when this ends")
@@ -243,7 +243,7 @@ class _Deed:
                 there = replace(there, place=st.Place("conflict_point", None, self.actor))
             passes = story.event(Clause(story.quote, EGO, measures=[there]))
             story.orders.append(st.Order(doing.ends or st.START, passes, ">", None, story.quote))
-        at_end = self.is_event or (self.again is not None and self.deed == "stop")
+        at_end = self.again is not None and self.deed == "stop"
         for each in self.rest:
             if each.link == "until":  # "... until it passes the conflict point 1 s before the ego"
                 at_end = True
