@@ -10,6 +10,7 @@ from scenewright.translate.tell import tell
 
 WAYS = "The ego turns left out of the driveway. The hero drives west. "
 WHEN = WAYS + "When the ego is 12 m before the stop line, the hero "
+TURNED = "When the hero completes its turn, the hero"
 PASSES = WAYS + "2 s after the ego passes the stop line, the hero "
 
 
@@ -52,3 +53,25 @@ def test_what_stands_in_front_of_a_deed_dates_its_beginning_whatever_it_passes(s
     told = does(PASSES + said)
     assert "Then the hero brakes until it passes the conflict point." in told
     assert "The hero begins to brake 2 s after the ego passes the stop line." in told
+
+
+@pytest.mark.parametrize(
+    ("said", "told"),
+    [
+        ("turns left.", "The hero begins to turn 2 s after the ego passes the stop line."),
+        ("turns left and brakes to a stop.", f"{TURNED} begins to brake until it stands."),
+        ("keeps its speed.", "Meanwhile, the hero has an acceleration of 0 m/s^2."),
+    ],
+)
+def test_what_is_done_some_time_after_a_moment_is_done_then(said: str, told: str) -> None:
+    assert told in does(PASSES + said)
+
+
+def test_who_does_not_stop_some_time_after_a_moment_may_have_stopped_before() -> None:
+    assert sum("at least 1 m/s" in line for line in does(PASSES + "drives on without stopping.")) == 1
+
+
+def test_who_turns_and_brakes_so_long_after_the_start_turns_first() -> None:
+    first, then = does(WAYS + "5 s after the start, the hero turns left and brakes to a stop.")
+    assert first.startswith("When it is 5 s after the start and the hero begins to turn, the hero begins to drive on")
+    assert then == f"{TURNED} begins to brake until it stands."

@@ -159,8 +159,11 @@ class _Sentence:
         does = any("shall" in each.notes and not each.says_more_than() for each in items)  # "so does the hero"
         if when is not None and any(each.subject is not None and not each.says_more_than() for each in items):
             story.refuse("nothing is said here", items[0].quote)  # "when ..., the hero is, too"
-        timed, is_led = any(each.times for each in when or ()), bool(self.led.words & {"then", "at once", "same time"})
-        items = acts_of(story, items, (is_led or when is not None or self.led.pending is not None) and not timed)
+        is_led = bool(self.led.words & {"then", "at once", "same time"})
+        happens = is_led or when is not None or self.led.pending is not None
+        happens |= any(each.is_first for each in rest) and not items[0].is_event  # that may be a known one
+        timed = any(each.times for each in when or ()) and not any(each.deed for each in items)
+        items = acts_of(story, items, happens and not timed)
         if not items and when is None:
             if rest or does or (is_led and story.named):
                 story.refuse("it is not said what is done")
