@@ -75,3 +75,16 @@ def test_who_turns_and_brakes_so_long_after_the_start_turns_first() -> None:
     first, then = does(WAYS + "5 s after the start, the hero turns left and brakes to a stop.")
     assert first.startswith("When it is 5 s after the start and the hero begins to turn, the hero begins to drive on")
     assert then == f"{TURNED} begins to brake until it stands."
+
+
+@pytest.mark.parametrize(
+    ("said", "named"),
+    [
+        ("Until the ego passes the stop line, the hero passes the conflict point.", "when this is so"),
+        ("5 s after the start, the hero brakes to 5 m/s. 2 s later it speeds up when the ego begins to turn.",
+         "at two times"),
+    ],
+)  # fmt: skip
+def test_no_two_times_of_one_thing_are_told(said: str, named: str) -> None:
+    with pytest.raises(TranslationError, match=named):
+        read(WAYS + said)

@@ -104,6 +104,8 @@ class _Deed:
         """Return the moment at which it begins; None where that is the end of the deed before."""
         story, clause, led = self.story, self.clause, self.led
         if self.when is not None:
+            if led.delay is not None:  # "2 s later it brakes when ..."
+                story.refuse("it is told to begin at two times", clause.quote, "say one of them")
             led.pending = led.moment_of(story, self.when)
         for delay in clause.times.pop("later", ()):  # "brakes 1 s later"
             if led.delay is not None:

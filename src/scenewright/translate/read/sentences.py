@@ -268,7 +268,8 @@ class _Sentence:
     def _until(self, items: list[Clause], until: cut.Segment) -> None:
         """Take what is so all the while until a moment: "The truck is at least 20 m ahead until it brakes"."""
         story, conditions = self.story, self.story.conditions(items)
-        if not conditions or (until.margins and [op for op, _ in until.margins] != ["=="]):
+        comes = any(map(st.is_event, conditions))  # "until ..., it passes the stop line": that is not so all the while
+        if not conditions or comes or (until.margins and [op for op, _ in until.margins] != ["=="]):
             story.refuse("it is not clear when this is so")
         quote, doer, before = story.quote, items[-1].subject, story.doings[-1] if story.doings else None
         offset = next((amount for _, amount in until.margins), None)
