@@ -88,3 +88,13 @@ def test_who_turns_and_brakes_so_long_after_the_start_turns_first() -> None:
 def test_no_two_times_of_one_thing_are_told(said: str, named: str) -> None:
     with pytest.raises(TranslationError, match=named):
         read(WAYS + said)
+
+
+@pytest.mark.parametrize(
+    ("said", "at"),
+    [("passes the stop line", "passes the stop line"), ("turns left", "completes its turn")],
+)
+def test_what_is_passed_before_something_is_done_is_no_part_of_the_moment(said: str, at: str) -> None:
+    *_, drives, brakes = does(f"{WHEN}{said}, after which it brakes to a stop.")
+    assert drives.endswith("the hero begins to drive on.")
+    assert brakes == f"When the hero {at}, the hero begins to brake until it stands."

@@ -235,7 +235,7 @@ def wishes_otherwise(chunks: Sequence[Chunk]) -> bool:
 
 def _who_acts(parts: Sequence[Sequence[Chunk]]) -> int:
     """Return which of the parts between commas begins what happens: it begins with who does it, if anybody is named."""
-    acts = [number for number, part in enumerate(parts) if any(chunk.kind in _ACTS for chunk in part)]
+    acts = [number for number, part in enumerate(parts) if _does(part, *parts[number + 1 : number + 2])]
     names = [number for number, part in enumerate(parts) if _is_named(part)]
     first = next(iter(acts), [len(parts) - 1, *names][-1])  # "..., the van passes the stop line, driving at 5 m/s"
     before = takewhile(lambda each: each.kind not in _ACTS, parts[first])
@@ -244,6 +244,13 @@ def _who_acts(parts: Sequence[Sequence[Chunk]]) -> int:
     earlier = [each for each in names if each < first]  # "the car, 30 m before the conflict point, brakes"
     later = [each for each in names if each > first and each in acts]  # "when the car, ..., brakes, the truck ..."
     return next(iter((*earlier[-1:], *later)), first)
+
+
+def _does(part: Sequence[Chunk], following: Sequence[Chunk] = ()) -> bool:
+    """Whether a part tells what is done: what comes to be so is, where it is told what is done after it."""
+    then = next((each for each in following if each.value != "and"), None)
+    is_before = then is not None and then.value == "then" and _is_named(part)
+    return any(each.kind in _ACTS or (is_before and each.kind in ("event", "turn")) for each in part)
 
 
 def _is_named(part: Sequence[Chunk]) -> bool:
