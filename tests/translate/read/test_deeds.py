@@ -98,3 +98,9 @@ def test_what_is_passed_before_something_is_done_is_no_part_of_the_moment(said: 
     *_, drives, brakes = does(f"{WHEN}{said}, after which it brakes to a stop.")
     assert drives.endswith("the hero begins to drive on.")
     assert brakes == f"When the hero {at}, the hero begins to brake until it stands."
+
+
+@pytest.mark.parametrize("said", ["brakes, turning left.", "brakes to 5 m/s. It turns left and stops."])
+def test_when_somebody_turns_that_does_something_else_is_not_clear(said: str) -> None:
+    with pytest.raises(TranslationError, match="when or where this is done"):
+        read(WHEN + said)

@@ -82,13 +82,15 @@ class _Acts:
         """Refuse a way or a place beside what is done of which nothing says when that is."""
         before, then = self._before(item), "then" in item.notes
         own = any(each.deed and each.subject == item.subject for each in self.found)
+        own |= self.acts and any(each.actor == item.subject for each in self.story.doings)
         leaves = self._is_of_hero(item) and is_way and "origin" in item.notes  # "when ..., the van leaves the driveway"
         inside = "area" in item.notes and (self.happens or own or item.deed != st.Verb.STAND)  # "stops in the driveway"
         both = "kept" in item.flags or {"kept", "first"} <= item.flags | before.flags  # "goes first, keeping its speed"
         both &= item.deed is None and before.deed in ("go first", st.Verb.DRIVE)
         late = (is_way and not self.happens and (own or then)) or (then and item.subject in self.ways)
         turns = item.turns and item.deed is not None and not self._is_meant(item)  # "turns right accelerating to 8 m/s"
-        is_turning = _is_way(item) and {"wanted", "relative"} & item.notes == {"wanted"} and not self.acts
+        beside = own and item.quote.text.split()[0].endswith("ing")  # "brakes, turning left"
+        is_turning = _is_way(item) and {"wanted", "relative"} & item.notes == {"wanted"} and (beside or not self.acts)
         if leaves or inside or both or late or (self.happens and (turns or is_turning)):
             self.story.refuse("it is not clear when or where this is done", item.quote, "say it as a deed of its own")
 
