@@ -104,3 +104,23 @@ def test_what_is_passed_before_something_is_done_is_no_part_of_the_moment(said: 
 def test_when_somebody_turns_that_does_something_else_is_not_clear(said: str) -> None:
     with pytest.raises(TranslationError, match="when or where this is done"):
         read(WHEN + said)
+
+
+@pytest.mark.parametrize(
+    ("said", "named"),
+    [
+        ("brakes to a stop in 4 s, later drives on.", "'later' could not be understood"),
+        ("brakes for 3 s. It brakes for 5 s.", "two amounts for one thing: 3 s and 5 s"),
+        ("drives on until it drives on.", "over before it begins"),
+    ],
+)
+def test_times_that_do_not_fit_are_refused(said: str, named: str) -> None:
+    with pytest.raises(TranslationError, match=named):
+        read(WHEN + said)
+
+
+def test_who_passes_a_place_braking_and_then_stops_brakes_on() -> None:
+    assert does(WHEN + "brakes, passes the stop line and stops 5 m before the conflict point.") == [
+        "When the ego is 12 m before the stop line, the hero begins to brake until it passes the stop line.",
+        "Then the hero brakes until it stands 5 m before the conflict point.",
+    ]

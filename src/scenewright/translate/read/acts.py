@@ -162,8 +162,9 @@ class _Acts:
         over = over or (brakes and "then" in item.notes)
         more = before.says_more_than("deed", "phase", "rates", "measures", "times", "begins", "flags")
         more |= bool(before.flags - {"standstill"} or "later" in item.times) or (halts and "for" in before.times)
+        more |= "event" in before.notes  # "brakes, passes the stop line and stops"
         if before.deed is not None and not over and item.is_event:
-            before.measures, before.notes = item.measures, before.notes | item.notes
+            before.measures, before.notes = item.measures, before.notes | item.notes | {"does"}
         elif (brakes or halts) and item.deed == "stop" and not more:  # it is told twice
             self.found[-1], item.rates, item.begins = item, [*before.rates, *item.rates], [*before.begins, *item.begins]
             item.measures = [*before.measures, *item.measures]

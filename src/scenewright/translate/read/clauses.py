@@ -306,8 +306,8 @@ class Taken:
         within = "in" in led or (self.peek(-1)[1] == "falls" and self.peek()[0] != "side")
         lasts = "for" in led or (lead == ("deed", st.Verb.STAND) and self.peek()[0] != "side")  # "waits 2 s"
         kinds = {  # of times, each with how many words behind belong to it
-            "for": (lasts, 0), "later": (self.peek() == ("link", "later"), 1),  # "brakes 1 s later"
-            "in": (within and self.clause.deed is not None, 0),  # "stops in 4 s", "within 4 s"
+            "for": (lasts, 0), "in": (within and self.clause.deed is not None, 0),  # "stops in 4 s", "within 4 s"
+            "later": (self.peek() == ("link", "later"), 1),  # "brakes 1 s later", and not "in 4 s, later ..."
             "after the start": ((self.peek(1)[1], self.peek(2)[1]) == ("after", "the start"), 2),
         }  # fmt: skip
         kind = next((each for each, (fits, _) in kinds.items() if fits), "")

@@ -205,6 +205,7 @@ class _Deed:
             story.refuse("it is not clear what lasts so long", clause.quote, "say 'in', or that it keeps that speed")
         lasts = (*([] if clause.rests else clause.times.get("for", ())), *clause.times.get("in", ()))
         doing.lasts += dict.fromkeys(lasts)
+        agree((st.Measure(self.actor, st.Quantity.ARRIVAL, *each) for each in doing.lasts), clause.quote)
         if "while" in clause.flags and self.ends:
             story.refuse("it is not clear when this ends")
 
@@ -224,7 +225,7 @@ class _Deed:
             doing.ends = story.moment(items, doing.actor)
             if doing.verb == st.Verb.STAND:  # "it waits until it has passed it"
                 story.passes_nothing(doing.actor, items, {"event", "has"})
-            if any((each.actor, each.begins) == (doing.actor, doing.ends) for each in story.doings[:-1]):
+            if any((each.actor, each.begins) == (doing.actor, doing.ends) for each in story.doings):
                 story.refuse("this is over before it begins", clause.quote, "say it in front of what is done then")
             told += story.moments[doing.ends].conditions if told else ()  # "speeds up to 5 m/s until it is at 6 m/s"
             story.add(doing.ends, ends)
