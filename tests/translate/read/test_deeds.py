@@ -124,3 +124,10 @@ def test_who_passes_a_place_braking_and_then_stops_brakes_on() -> None:
         "When the ego is 12 m before the stop line, the hero begins to brake until it passes the stop line.",
         "Then the hero brakes until it stands 5 m before the conflict point.",
     ]
+
+
+def test_what_comes_after_a_moment_at_which_nobody_acts_comes_after_it() -> None:
+    passes = WAYS + "5 s after the start, the hero passes the conflict point. "
+    assert does(passes + "Then it brakes.")[-1] == "The hero passes the conflict point before the hero begins to brake."
+    with pytest.raises(TranslationError, match="when this is done"):
+        read(passes + "It brakes for 3 s.")

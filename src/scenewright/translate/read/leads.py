@@ -132,8 +132,8 @@ def moment_led_to(story: Narrative, clause: Clause, leads: Leads, is_tied: bool)
     did = own is not None and (stops if leads.own == "stop" else own.verb == leads.own)
     if leads.own and not (did or leads.own in _TURNS):
         story.refuse("it was not told that it did this before")
-    is_new = last is not None and own is None and not is_tied
-    follows = last is not None and (last is not own or story.since is not None) and not leads.own
+    is_new = (last is not None or story.since is not None) and own is None and not is_tied
+    follows = (last is not own or story.since is not None) and not leads.own
     if delay is not None or (words & _LATER and follows):
         told = None if leads.own else story.since if leads.pending is None else leads.pending
         after = _after(story, own if leads.own else last, clause, leads) if told is None else told
