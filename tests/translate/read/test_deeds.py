@@ -126,6 +126,54 @@ def test_who_passes_a_place_braking_and_then_stops_brakes_on() -> None:
     ]
 
 
+TWO = "The ego turns left out of the driveway. A car drives west. A truck drives east. "
+BOTH = TWO + "When the ego is 12 m before the stop line, the car and the truck "
+
+
+@pytest.mark.parametrize(
+    ("said", "verbs"),
+    [
+        ("brake to 5 m/s and speed up to 10 m/s.", ["brake", "speed up"]),
+        ("brake to a stop, wait for 2 s and drive on.", ["brake", "stand still", "drive on"]),
+        ("brake to a stop, then drive on.", ["brake", "stand still", "drive on"]),
+        ("brake to a stop and 3 s later drive on.", ["brake", "stand still", "drive on"]),
+    ],
+)
+def test_two_who_do_several_things_each_go_on_from_their_own(said: str, verbs: list[str]) -> None:
+    story = read(BOTH + said)
+    assert [[deed.verb for deed in story.deeds_of(actor)][1:] for actor in (1, 2)] == [verbs, verbs]
+    assert story.deeds_of(1)[1].begins == story.deeds_of(2)[1].begins
+    assert all(order.op == "==" for order in story.orders)
+
+
+def test_what_stands_in_front_of_what_two_do_is_of_the_first_thing_that_each_does() -> None:
+    story = read(
+        TWO + "2 s after the ego passes the stop line, the car and the truck brake to a stop and wait for 3 s."
+    )
+    assert sorted(str(order.margin and order.margin.value) for order in story.orders) == ["2", "3", "3"]
+
+
+def test_who_acts_again_in_one_sentence_goes_on_from_its_own_deed() -> None:
+    story = read(TWO + "5 s after the start, the car brakes to a stop, the truck speeds up and the car drives on.")
+    assert [deed.verb for deed in story.deeds_of(1)] == ["drive on", "brake", "stand still", "drive on"]
+    assert story.deeds_of(1)[1].begins == story.deeds_of(2)[1].begins
+    assert not story.orders
+
+
+@pytest.mark.parametrize(
+    "said",
+    [
+        "Until the ego passes the stop line, the car brakes and the truck speeds up.",
+        "The car and the truck brake to a stop and wait for 2 s when the ego passes the stop line.",
+        "5 s after the start, the car brakes to a stop and waits for 2 s, and the truck speeds up.",
+        "5 s after the start, the car brakes to a stop, the ego is 5 m before the stop line and the truck speeds up.",
+    ],
+)
+def test_who_of_several_does_something_when_is_told_or_refused(said: str) -> None:
+    with pytest.raises(TranslationError, match="it is not clear"):
+        read(TWO + said)
+
+
 def test_what_comes_after_a_moment_at_which_nobody_acts_comes_after_it() -> None:
     passes = WAYS + "5 s after the start, the hero passes the conflict point. "
     assert does(passes + "Then it brakes.")[-1] == "The hero passes the conflict point before the hero begins to brake."

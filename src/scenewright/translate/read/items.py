@@ -280,10 +280,11 @@ def items_of(people: Cast, chunks: Sequence[Chunk], subject: int | None = None) 
             parser.led.add(lead)
             parser.at += 1
         else:
-            item = parser.one(())
-            item.notes, parser.led = item.notes | parser.led, set()
-            found += [*parser.others, item]
-            parser.others = []
+            both = [parser.one(()), *parser.others]
+            for item in both:
+                item.notes |= parser.led
+            found += [*both[1:], both[0]]
+            parser.led, parser.others = set(), []
     for item, following in pairwise(found):  # "the ego, a bus and a van drive west"
         if item.subject != following.subject and not item.says_more_than():
             people.refuse("nothing is said here", item.quote, "say it of each")

@@ -100,8 +100,8 @@ class Narrative(Cast):
             (),
             tuple(st.Deed(each.actor, each.verb, each.begins, each.ends or st.START, tuple(each.throughout), each.quote)
                   for each in self.doings),
-            tuple(self.orders), tuple(self.holds), tuple(self.parameters), self.manner, self.map_name, self.title,
-            tuple(self.asides), tuple(self.assumptions),
+            tuple(dict.fromkeys(self.orders)), tuple(self.holds), tuple(self.parameters), self.manner, self.map_name,
+            self.title, tuple(self.asides), tuple(self.assumptions),
         )  # fmt: skip
         ego = st.comes_through(story, range(len(story.moments)), self._ego_comes) if self.ego is None else self.ego
         return replace(story, ego=ego, questions=tuple(self.questions))

@@ -222,33 +222,54 @@ class _Sentence:
     def _several(self, items: list[Clause], when: list[Clause] | None, rest: list[cut.Segment]) -> None:
         """Take one deed after the other: "it brakes to a stop, waits for 3 s and drives on"."""
         story, ways = self.story, ("the last of these deeds", "the first of them")
-        one = len({each.subject for each in items}) == 1 and all(each.deed for each in items)
-        one &= "both" not in items[0].notes
+        who, both = {each.subject for each in items}, "both" in items[0].notes
+        one = len(who) == 1 and all(each.deed for each in items) and not both
         before = any(each.is_first and each.link == "before" for each in rest)  # the first of them, or all of them
         late = (self.led.is_of_last or before) and one
         late = late and story.is_first("last", "What begins then", ways, story.quote)
-        then, when = when, None if late else when
-        for item, following in zip_longest(items, items[1:]):
-            both = "both" in item.notes
-            # What stands in front dates the first of them, what stands behind the last.
-            fronts = [each for each in rest if each.is_first and not (late and each.link == "before")]
-            own = [each for each in rest if both or (item is items[0] if each in fronts else following is None)]
+        until = any(each.is_first and each.link == "until" for each in rest) and len(who) > 1 and not both
+        if until or (both and self.led.is_of_last and len(items) > len(who)):
+            story.refuse("it is not clear who does what then", fix="say it of each, in a sentence of its own")
+        then, when, begun = when, None if late else when, set[int | None]()
+        # What stands in front dates the first of them, what stands behind the last; of both, where it is told of both.
+        fronts = [each for each in rest if each.is_first and not (late and each.link == "before")]
+        for at, (item, following) in enumerate(zip_longest(items, items[1:])):
+            is_first, is_last = not at, following is None
+            if "both" in item.notes:
+                is_first = item.subject not in begun
+                is_last = all(each.subject != item.subject for each in items[at + 1 :])
+            own = [each for each in rest if (is_first if each in fronts else is_last)]
             self._main([item], then if late and following is None else when, own)
-            if following is None:
-                continue
-            same = following.subject == item.subject
-            if same and (item.deed, item.phase) == ("turn", "begins"):
-                story.refuse("it is not clear whether it completes its turn", item.quote)
-            if same and "same time" in following.notes:
-                story.refuse("two deeds at one time are told of one")
-            bare = following is items[-1] or "said" not in following.notes
-            if bare and not following.deed and following.measures:
-                story.refuse("it is not clear when this is so", following.quote)  # "... and the car at 6 m/s"
-            then_too = "then" in following.notes or ("later" in following.times and not both)
-            if then_too or (same and item.deed is not None):
-                self.led.words, when, self.led.pending = {"then"}, None, None
-            elif when is None and not same:  # "then one brakes and another speeds up"
-                self.led.words = {"same time"}
+            begun |= {item.subject} if item.deed else set()
+            if following is not None and not following.deed and following.measures:
+                acts = [each.deed for each in items[at + 2 : at + 3] if each.subject == following.subject]
+                if not any(acts) or following.subject in begun:  # not "... and the car is 20 m before it and brakes"
+                    story.refuse("it is not clear when this is so", following.quote)  # "... and the car at 6 m/s"
+            if following is not None and self._goes_on(item, following, begun, when is None and then is not None):
+                when = None
+            elif following is not None and when is None and following.subject != item.subject:
+                self.led.words = {"same time"}  # "then one brakes and another speeds up"
+
+    def _goes_on(self, item: Clause, following: Clause, begun: set[int | None], is_over: bool) -> bool:
+        """Whether a deed comes after that before it; `is_over` where what was told of when they are is."""
+        story, same = self.story, following.subject == item.subject
+        if same and (item.deed, item.phase) == ("turn", "begins"):
+            story.refuse("it is not clear whether it completes its turn", item.quote)
+        if same and "same time" in following.notes:
+            story.refuse("two deeds at one time are told of one")
+        two = "both" in following.notes and following.quote.end == item.quote.end
+        then_too = not two and ("then" in following.notes or "later" in following.times)
+        if then_too or following.subject in begun:  # who did something goes on from there, whatever others do
+            self.led.words, self.led.pending = {"then"}, None
+            own = leads.last_of(story, following.subject)
+            if own is not None and not same and ("both" in following.notes or not then_too):
+                self.led.own = own.verb
+            return True
+        if is_over and not (
+            two or "same time" in following.notes
+        ):  # "when ..., the car brakes and waits and the truck speeds up"
+            story.refuse("it is not clear when this is done", following.quote, "say it in a sentence of its own")
+        return False
 
     def _moment(self, items: list[Clause], when: list[Clause], rest: list[cut.Segment]) -> None:
         """Take a moment, what else is so at it, and its order: what is done at it may still follow."""
