@@ -157,21 +157,16 @@ class _Acts:
         if brakes:  # "brakes and stands 5 m before"
             let_stand(item, "stop")
         # Who stands passes nothing, and what has an end of its own does not end there: that comes after it.
-        stands = halts or before.deed == st.Verb.STAND
-        over = stands or (before.deed and (before.measures or "for" in before.times))
-        over = over or (brakes and "then" in item.notes)
+        over = halts or before.deed == st.Verb.STAND or (brakes and "then" in item.notes)
+        over |= before.deed is not None and bool(before.measures or "for" in before.times)
         more = before.says_more_than("deed", "phase", "rates", "measures", "times", "begins", "flags")
         more |= bool(before.flags - {"standstill"} or "later" in item.times) or (halts and "for" in before.times)
         more |= "event" in before.notes  # "brakes, passes the stop line and stops"
         if before.deed is not None and not over and item.is_event:
             before.measures, before.notes = item.measures, before.notes | item.notes | {"does"}
         elif (brakes or halts) and item.deed == "stop" and not more:  # it is told twice
-            self.found[-1], item.rates, item.begins = item, [*before.rates, *item.rates], [*before.begins, *item.begins]
-            item.measures = [*before.measures, *item.measures]
-            for name, several in before.times.items():  # "brakes for 3 s and stops": so long it brakes
-                own = "in" if name == "for" else name
-                item.times[own] = [*several, *item.times.get(own, ())]
-            item.agree()
+            self.found[-1] = item
+            _take_all(item, before)
         elif item.says_more_than():
             if (over or self._is_of_hero(item)) and item.is_event:
                 _pass(item)
@@ -182,6 +177,14 @@ class _Acts:
                 item.measures = [each for each in item.measures if each not in comes]
                 item.notes -= {"event"}
                 self.found.append(Clause(item.quote, item.subject, st.Verb.DRIVE, measures=comes, notes={"event"}))
+
+
+def _take_all(clause: Clause, before: Clause) -> None:
+    """Take the amounts of a clause that tells the same: who "brakes for 3 s and stops" brakes so long."""
+    clause.measures[:0], clause.rates[:0], clause.begins[:0] = before.measures, before.rates, before.begins
+    for name, several in before.times.items():
+        clause.times.setdefault("in" if name == "for" else name, [])[:0] = several
+    clause.agree()
 
 
 def _pass(clause: Clause) -> None:

@@ -355,8 +355,7 @@ def _amount(text: str, match: re.Match[str]) -> Chunk | None:
         own = None if own is None or (told is not None and told.dimension != own.dimension) else own
     quote = Quote(match.start(), end := (unit or match).end(), text[match.start() : end])
     amount = None if own is None else Amount(None if name else Fraction(number or 0), own.symbol, name, quote)
-    kind = "no unit" if amount is None else "amount"
-    return Chunk(kind, name or str(number), quote.start, end, quote.text, amount)
+    return Chunk("no unit" if amount is None else "amount", name or str(number), quote.start, end, quote.text, amount)
 
 
 def _phrase(text: str, tokens: list[re.Match[str]], said: list[str], index: int) -> Chunk | None:

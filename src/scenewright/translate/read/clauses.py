@@ -491,9 +491,8 @@ class Taken:
         before = self.chunks[self.at - 1].words if self.at else ""
         if (before.endswith("off") and "turn" not in self.clause.facts) or (not side and before[:8] == "approach"):
             raise self.left_over(chunk)
-        turned = self.clause.turns and side != "from"
         self.clause.notes |= {"area"} if self.clause.deed not in (None, st.Verb.DRIVE) else set()  # "stops in it"
-        self.fact("destination" if side == "into" or turned else "origin", chunk)
+        self.fact("destination" if side == "into" or (self.clause.turns and side != "from") else "origin", chunk)
 
     def fact(self, name: str, chunk: Chunk) -> None:
         """Take one fact of a way; two that differ are left over."""

@@ -14,7 +14,7 @@ from scenewright.translate import story as st
 from scenewright.translate.read.acts import shares_of
 from scenewright.translate.read.clauses import Clause, agree, is_upper
 from scenewright.translate.read.items import ORDERS, Segment, items_of
-from scenewright.translate.read.leads import Leads, last_of, moment_led_to, told_before
+from scenewright.translate.read.leads import Leads, moment_led_to, told_before
 from scenewright.translate.read.narrative import CHANGES, Doing, Narrative, steady
 from scenewright.translate.read.points import put_in_order
 
@@ -38,7 +38,7 @@ def read_deed(story: Narrative, led: Leads, clause: Clause, when: list[Clause] |
     if turned := led.own.partition("turn ")[2]:  # "after turning left, it ..."
         story.tell_way(clause.subject, {"turn": turned})
     if led.is_of_last and clause.phase == "begins" and not clause.says_more_than("deed", "phase"):
-        last = last_of(story, clause.subject)  # "It brakes to a stop. It begins to brake when ..."
+        last = story.last_of(clause.subject)  # "It brakes to a stop. It begins to brake when ..."
         if last is not None and last.verb == clause.deed and "again" not in led.words:
             story.refuse("this was told before", clause.quote, "say in that sentence when it begins")
     _Deed(story, led, clause, clause.subject, clause.deed, when, rest).read()
@@ -70,9 +70,9 @@ class _Deed:
         elif self.when is None and not led.words:
             self.again = told_before(story, clause)
         self.begins, self.held, self.ends = shares_of(story, clause)
-        last = last_of(story, self.actor)
+        last = story.last_of(self.actor)
         if led.own.startswith("turn") and (last is None or not last.turns):
-            self.begins.append(replace(self._at(self.actor, "turn_end"), op=">="))
+            self.begins.append(replace(self._at("turn_end"), op=">="))
         moment = self._moment()
         if "kept" in clause.flags and not self.held:  # "continues at a constant speed"
             if self.deed != st.Verb.DRIVE:
@@ -82,10 +82,10 @@ class _Deed:
         is_placed = bool(self.begins) and self.deed != st.Verb.STAND
         self._put_in_places(moment)
         self.is_event = "event" in clause.notes
-        if self.ends and self.is_event and self.when is not None and not self.rest:
-            ways = ("some time after that", "at that moment")  # "when the ego stands, the van passes the stop line"
-            if not story.is_first("event", "When is this", ways, clause.quote):
-                self.begins, self.ends = [*self.begins, *self.ends], []
+        ways = ("some time after that", "at that moment")  # "when the ego stands, the van passes the stop line"
+        passes = self.ends and self.is_event and self.when is not None and not self.rest
+        if passes and not story.is_first("event", "When is this", ways, clause.quote):
+            self.begins, self.ends = [*self.begins, *self.ends], []
         self._find_what_is_dated()
         doing = self._begin(moment, is_placed)
         self._fill(doing)
@@ -127,15 +127,15 @@ class _Deed:
             told = [*(() if moment is None else story.moments[moment].conditions)]
             start = story.moments[st.START].conditions
             told += start if st.standstill(self.actor) in start else ()  # it turns from where it stands
-            stood = last_of(story, self.actor)
+            stood = story.last_of(self.actor)
             since = () if stood is None else (stood.begins, stood.ends)[stood.verb != st.Verb.STAND :]
             told += [each for at in since if at is not None for each in story.moments[at].conditions]
             # Where it is told where it is then, it turns later.
             if not any(isinstance(each, st.Measure) and each.actor == self.actor and each.place for each in told):
-                self.begins.append(self._at(self.actor, "turn_start"))
-            self.ends = self.ends or [self._at(self.actor, "turn_end")]  # "turns left and passes the conflict point"
+                self.begins.append(self._at("turn_start"))
+            self.ends = self.ends or [self._at("turn_end")]  # "turns left and passes the conflict point"
         elif self.deed == "go first":
-            self.ends.append(self._at(self.actor, "conflict_point"))
+            self.ends.append(self._at("conflict_point"))
 
     def _find_what_is_dated(self) -> None:
         """Find out whether what dates it is of when it begins, "begins to brake to a stop 2 s before ...", or ends."""
@@ -173,7 +173,7 @@ class _Deed:
                 story.refuse("it is told to begin at the start, and at another time", clause.quote, "say one of them")
             led |= {"then", "apart"}
         led |= {"then"} if orders and verb in CHANGES and "start" not in led else set()  # not from the start
-        if sets_off and last_of(story, self.actor) is None:
+        if sets_off and story.last_of(self.actor) is None:
             story.add(st.START, [st.standstill(self.actor)])
             _agree(story.moments[st.START].conditions, clause.quote)
         doing = self.again or story.begin(self.actor, verb, moment, led)
@@ -241,10 +241,8 @@ class _Deed:
         """Take what its beginning or its end comes before or after."""
         story = self.story
         if self.deed == "go first":  # it passes before the ego does
-            there = self._at(EGO, "conflict_point")
-            if len(story.heroes) > 1 and self.actor != story.heroes[0].id:  # a bare one is that with the first
-                there = replace(there, place=st.Place("conflict_point", None, self.actor))
-            passes = story.event(Clause(story.quote, EGO, measures=[there]))
+            with_whom = None if self.actor == story.heroes[0].id else self.actor  # a bare one is that with the first
+            passes = story.ego_passes(st.Place("conflict_point", None, with_whom))
             story.orders.append(st.Order(doing.ends or st.START, passes, ">", None, story.quote))
         at_end = self.again is not None and self.deed == "stop"
         for each in self.rest:
@@ -255,8 +253,8 @@ class _Deed:
             late = late and (doing.ends is not None or doing.rests)
             put_in_order(story, story.finish(doing) if late else doing.begins, [each])
 
-    def _at(self, actor: int, place: str) -> st.Measure:
-        return st.Measure(actor, st.Quantity.PLACE, "==", None, st.Place(place), quote=self.story.quote)
+    def _at(self, place: str) -> st.Measure:
+        return st.Measure(self.actor, st.Quantity.PLACE, "==", None, st.Place(place), quote=self.story.quote)
 
 
 def _agree(conditions: Iterable[st.Condition], quote: st.Quote) -> None:

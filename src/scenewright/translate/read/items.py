@@ -91,9 +91,8 @@ def segments_of(chunks: list[Chunk], is_led: bool = False) -> list[Segment]:
     elif (fronted or lasts or opens[0] == ("joint", "if")) and not is_led:
         found, chunks = [*found, Segment("when", lasts=lasts)], chunks[1:]
     for index, chunk in enumerate(chunks):
-        orders = chunk.kind == "side" and chunk.value in ("before", "after")
         told = found[-2 if found[-1].link in ORDERS[2:] else -1].chunks
-        if orders and _is_clause(chunks[index + 1 :], told):
+        if chunk.kind == "side" and chunk.value in ORDERS[:2] and _is_clause(chunks[index + 1 :], told):
             margins = _margins(found[-1].chunks)
             one_side = ONE_SIDE.get((found[-1].link, chunk.value))
             if found[-1].chunks or not margins or found[-1].link in ("main", "when"):
@@ -132,8 +131,7 @@ def _is_clause(chunks: Sequence[Chunk], before: Sequence[Chunk]) -> bool:
 
 def margins_of(found: Sequence[Margin]) -> list[Margin]:
     """Return how much later something is: what is at most 2 s after something is not before it, either."""
-    is_near = found and all(op in ("<", "<=") for op, _ in found)
-    return [*found, (">=", None)] if is_near else [*found]
+    return [*found, (">=", None)] if found and all(op in ("<", "<=") for op, _ in found) else [*found]
 
 
 def _margins(chunks: list[Chunk]) -> list[Margin]:

@@ -93,14 +93,9 @@ def same_time(story: Narrative, words: Set[str]) -> int | None:
     return last.begins
 
 
-def last_of(story: Narrative, actor: int | None) -> Doing | None:
-    """Return what somebody does last so far."""
-    return next((each for each in reversed(story.doings) if each.actor == actor), None)
-
-
 def told_before(story: Narrative, clause: Clause) -> Doing | None:
     """Return the deed that a clause tells once more: nobody brakes, then brakes, unless a word says so."""
-    own = last_of(story, clause.subject)
+    own = story.last_of(clause.subject)
     verb = st.Verb.BRAKE if clause.deed == "stop" else clause.deed
     if own is None or clause.ordinal:
         return None
@@ -125,7 +120,7 @@ def moment_led_to(story: Narrative, clause: Clause, leads: Leads, is_tied: bool)
         if last is None:
             story.refuse("it is not clear at the same time as what", fix="begin it with 'When ...,'")
         return same_time(story, words)
-    own = last_of(story, clause.subject)
+    own = story.last_of(clause.subject)
     if "meanwhile" in words and own is not None and own is last:
         story.refuse("two deeds at one time are told of one")
     stops = own is not None and (own.rests or own.verb == st.Verb.STAND or own.ends is not None)
@@ -161,7 +156,7 @@ def _after(story: Narrative, last: Doing | None, clause: Clause, leads: Leads) -
     ways[f"after {story.actor(last.actor).name} begins to {DOES[last.verb][1]}"] = last, False
     # How much later somebody else reacts is told from what it may see first.
     default = len(ways) - 1 if leads.delay is not None and last.actor != clause.subject and not last.lasts else 0
-    own = last_of(story, clause.subject)
+    own = story.last_of(clause.subject)
     if own is not None and own is not last:
         ways[f"after {story.actor(own.actor).name} finishes {DOES[own.verb][2]}, whatever others do"] = own, True
     if len(ways) > 1:

@@ -270,9 +270,14 @@ class Narrative(Cast):
         if len(self.heroes) != 1 or not self.doings:
             self.refuse("it is not said who does what for that", quote, "say what the other one does")
         self.quote, there = quote, st.Place("conflict_point")
-        passes = self.event(Clause(quote, EGO, measures=[st.Measure(EGO, st.Quantity.PLACE, "==", None, there)]))
+        passes = self.ego_passes(there)
         self.add(passes, [st.Measure(self.heroes[0].id, st.Quantity.PLACE, "<", None, there, quote=quote)])
         self.later.add(passes)
+
+    def ego_passes(self, there: st.Place) -> int:
+        """Return the moment at which the ego passes a place."""
+        passes = st.Measure(EGO, st.Quantity.PLACE, "==", None, there, quote=self.quote)
+        return self.event(Clause(self.quote, EGO, measures=[passes]))
 
     def tell(self, clause: Clause) -> None:
         """Take what a clause says of somebody's way, and leave the rest."""
@@ -283,6 +288,10 @@ class Narrative(Cast):
         self.tell_way(clause.subject, clause.facts)
         self.relate(clause.subject, *clause.relations)
         clause.facts, clause.relations, clause.flags = {}, [], clause.flags - {"way", "headed"}
+
+    def last_of(self, actor: int | None) -> Doing | None:
+        """Return what somebody does last so far."""
+        return next((each for each in reversed(self.doings) if each.actor == actor), None)
 
     def is_owned(self, moment: int) -> bool:
         """Whether somebody begins or ends a deed at a moment."""
@@ -304,7 +313,7 @@ class Narrative(Cast):
         if actor == EGO:
             self.refuse("the ego is driven by the policy under test: say what the others do")
         self.acting.add(actor)
-        before, self.since = next((doing for doing in reversed(self.doings) if doing.actor == actor), None), None
+        before, self.since = self.last_of(actor), None
         if before is None:
             moment = self.new_moment() if moment is None and "then" in leads else moment
             if moment is not None and moment != st.START:
@@ -322,8 +331,8 @@ class Narrative(Cast):
 
     def _go_on(self, before: Doing, verb: str, moment: int | None, leads: set[str]) -> int:
         """Return where a deed begins after one whose end is known; what lies between is standing or driving on."""
-        goes_on = verb == st.Verb.BRAKE or "passes" in leads  # who stands does neither
-        is_open = before.rests and before.ends is None and goes_on
+        # Who stands neither brakes nor passes anything.
+        is_open = before.rests and before.ends is None and (verb == st.Verb.BRAKE or "passes" in leads)
         if is_open:
             ways, asked = ["for a while", "to a standstill"], f"How far does {self.actor(before.actor).name} brake"
             before.rests = not self.is_first("rests", asked, ways, before.quote or self.quote)

@@ -26,6 +26,7 @@ from scenewright.translate.read.points import HOW, event_of, put_in_order, read_
 
 _SAYS_NOTHING = {"unknown", "comma", "harmless", "again", "be", "joint", "quality", "name", "mood", "other"}
 _COMMENT = {*_SAYS_NOTHING, "comment", "actor", "relative", "yields", "insists", "refrains", "order", "side", "link"}
+_AT_ONCE = {"then", "at once", "same time"}
 
 
 def read(text: str, answers: Mapping[str, str] | None = None, name: str = "description") -> st.Story:
@@ -159,13 +160,9 @@ class _Sentence:
         does = any("shall" in each.notes and not each.says_more_than() for each in items)  # "so does the hero"
         if when is not None and any(each.subject is not None and not each.says_more_than() for each in items):
             story.refuse("nothing is said here", items[0].quote)  # "when ..., the hero is, too"
-        is_led = bool(self.led.words & {"then", "at once", "same time"})
-        happens = is_led or when is not None or self.led.pending is not None
-        happens |= any(each.is_first for each in rest) and not items[0].is_event  # that may be a known one
-        timed = any(each.times for each in when or ()) and not any(each.deed for each in items)
-        items = acts_of(story, items, happens and not timed)
+        items = acts_of(story, items, self._happens(items, when, rest))
         if not items and when is None:
-            if rest or does or (is_led and story.named):
+            if rest or does or (self.led.words & _AT_ONCE and story.named):
                 story.refuse("it is not said what is done")
             return
         items, when = self._parted(items, when)
@@ -194,6 +191,13 @@ class _Sentence:
         else:
             self._facts(items)
 
+    def _happens(self, items: list[Clause], when: list[Clause] | None, rest: list[cut.Segment]) -> bool:
+        """Whether a turn, a speed or an event that is told is done then."""
+        if any(each.times for each in when or ()) and all(each.deed is None for each in items):
+            return False  # "5 s after the start, the hero drives at 8 m/s" tells what is so
+        is_led = bool(self.led.words & _AT_ONCE) or when is not None or self.led.pending is not None
+        return is_led or (any(each.is_first for each in rest) and not items[0].is_event)  # that may be a known one
+
     def _parted(self, items: list[Clause], when: list[Clause] | None) -> tuple[list[Clause], list[Clause] | None]:
         """Part what is so in front of a deed from what is done: it is so at the moment, or at the start."""
         acts = next((at for at, each in enumerate(items) if each.deed), 0)
@@ -210,7 +214,7 @@ class _Sentence:
 
     def _let_be_done(self, first: Clause, until: bool, tells_time: bool) -> None:
         """Let what is told to last, to end a deed, or to come before or after something be a deed."""
-        story, last = self.story, leads.last_of(self.story, first.subject)
+        story, last = self.story, self.story.last_of(first.subject)
         if until and not any(cut.is_beside(each) for each in first.measures):
             lasting(first)  # "drives 20 m ahead of the ego until ..." is so, and nothing that it does
         if last is not None and last.rests and last.ends is None:  # "it brakes at 2 m/s^2. It stands 10 m before ..."
@@ -261,7 +265,7 @@ class _Sentence:
         then_too = not two and ("then" in following.notes or "later" in following.times)
         if then_too or following.subject in begun:  # who did something goes on from there, whatever others do
             self.led.words, self.led.pending = {"then"}, None
-            own = leads.last_of(story, following.subject)
+            own = story.last_of(following.subject)
             if own is not None and not same and ("both" in following.notes or not then_too):
                 self.led.own = own.verb
             return True
