@@ -32,7 +32,7 @@ def start_condition(case: Case) -> Condition:
     braked = ((_hardest_braking_mpss(case, actor.id), actor.id) for actor in case.program.actors)
     near = ((rate, who) for rate, who in braked if rate > HARD_MPSS and _is_put_near(case, who))
     hardest, who = max(near, default=(0.0, None))
-    whose = "" if who is None else f" (not what {called(case.name(who))} does)"
+    whose = "" if who is None else f"; {called(case.name(who))} does"
     text = f"nobody begins so near to another that it brakes hard at once, unless the program puts it there{whose}"
     return bounded(
         "start", "safety", text,
