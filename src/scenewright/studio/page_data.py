@@ -30,7 +30,7 @@ from scenewright.translate.compile import UNNAMED
 Json = dict[str, Any]
 
 MAX_SAMPLES = 2000  # per actor
-_AN_INSTANT_S = 1e-3
+_AN_INSTANT_S = 1e-3  # rounding
 _MAX_SAMPLES_IN_ALL = 12_000  # what keeps the page of a run with many actors under a megabyte
 _DEFAULT_SIZE_M = (VEHICLE_LENGTH_M, VEHICLE_WIDTH_M)
 
