@@ -53,6 +53,12 @@ def commands_of(page: Path) -> list[tuple[list[str], int]]:
     return found
 
 
+def test_every_tool_that_a_page_names_is_there() -> None:
+    named = {tool for page in PAGES for tool in re.findall(r"\btools/\w+\.py\b", page.read_text(encoding="utf-8"))}
+    assert len(named) > 5
+    assert [tool for tool in sorted(named) if not (ROOT / tool).is_file()] == []
+
+
 # What is proposed is in the proof below.
 @pytest.mark.usefixtures("in_one_process", "nothing_proposed")
 @pytest.mark.parametrize("page", [page for page in PAGES if commands_of(page)], ids=lambda page: page.stem)
