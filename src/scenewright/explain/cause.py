@@ -106,7 +106,7 @@ class _Miss:
         return cut_short(self.world, self.run, self.hero)
 
     @cached_property
-    def open(self) -> list[Condition]:
+    def unreached(self) -> list[Condition]:
         """What is missed that is of moments which the run did not come to."""
         return never_came(self.world, self.verdict, self.missed)
 
@@ -159,7 +159,7 @@ def _of_the_end(miss: _Miss) -> Cause | None:
     # Where the ego has no part in a trigger that lies beyond the end, it was in nobody's hands.
     of_trigger = {who for who, _ in miss.world.structure.triggers.get(miss.hero.id, ())}
     waits = miss.acted_s > miss.run.trace.duration_s and EGO not in of_trigger
-    whole = waits or len(miss.open) == len(miss.missed)
+    whole = waits or len(miss.unreached) == len(miss.missed)
     return _cause("plan", miss.ended) if miss.ended is not None and whole else None
 
 
@@ -185,7 +185,7 @@ def _of_the_drive(miss: _Miss) -> Cause:
         return _cause("authority", Finding(f"{limit.text}, and {why}", {**otherwise.evidence, **limit.evidence}))
     if limit is not None:
         return _cause("authority", limit)
-    left = otherwise or (miss.ended if miss.open else None) or _planned_so(miss, until_s)
+    left = otherwise or (miss.ended if miss.unreached else None) or _planned_so(miss, until_s)
     if in_way is not None:
         left = Finding(f"{left.text}; {in_way}", {**left.evidence, "in_way": asdict(in_way)})
     return _cause("prediction" if otherwise else "plan", left)
